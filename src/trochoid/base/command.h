@@ -81,10 +81,11 @@ constexpr std::string_view purpose_of(Command command) noexcept {
              "feedforward command for it";
     case Command::plan:
       return "Which cut to measure next: the one that narrows cutting coefficients and "
-             "runout most; or how to measure a wall, and how to cut it";
+             "runout most; how to measure a wall, and how to cut it; which feed keeps a "
+             "roughness";
     case Command::program:
-      return "The moves of a whole NC program in G code: every word is executed, known to "
-             "be without effect, or told with its line and column";
+      return "Forces on each tooth along a whole NC program in G code, with runout: "
+             "which line loads the tool most, and the feeds that keep your limits";
   }
   return {};
 }

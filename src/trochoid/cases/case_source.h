@@ -38,6 +38,10 @@ struct CaseSource {
 Case read_case(const CaseSource& source, std::optional<Command> command,
                const std::filesystem::path& result_folder = {});
 
+/// @brief The command that the tables of a case ask for: `check` looks for what it needs, and
+/// `trochoid CASE.toml` runs it.
+Command command_of(const Node& root);
+
 /// @brief Check the keys that are there, whatever they are meant for; what a command
 /// needs may still be missing.
 /// @throws base::InputError with every problem

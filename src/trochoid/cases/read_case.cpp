@@ -12,48 +12,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 
 namespace trochoid::cases {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-/// `check` asks for what the case seems to be made for.
-Command purpose_of(std::optional<Command> command, const Node& root) {
-  const auto has = [&root](std::string_view table) {
-    return find(root, table) != nullptr;
-  };
-  if (command) {
-    return *command;
-  }
-  if (has("program")) {
-    return Command::program;
-  }
-  if (has("plan")) {
-    return Command::plan;
-  }
-  if (has("correct")) {
-    return Command::correct;
-  }
-  if (has("measurement")) {
-    return Command::identify;
-  }
-  if (has("surface_measurement")) {
-    return Command::calibrate;
-  }
-  if (has("stability")) {
-    return Command::stability;
-  }
-  if (has("command") && has("mode")) {
-    return Command::dynamics;
-  }
-  if (!has("tool") && (has("frf") || has("measured_frf") || has("step"))) {
-    return has("frf") || has("measured_frf") ? Command::modes : Command::actuator;
-  }
-  return has("surface") || has("wall") || has("cutter_body") ? Command::surface
-                                                             : Command::simulate;
-}
 
 /// One [name], or every [[name]], into its entry.
 void read_entry(const TableEntry& entry, const Node& node, const Reading& reading,
@@ -125,6 +90,15 @@ std::vector<std::string> report_unknown(const Node& root,
     }
   }
   return meant;
+}
+
+/// Whether [force] has the coefficient that every law has in some form.
+bool knows_coefficients(const Node& root) {
+  const Node* force = find(root, "force");
+  if (force == nullptr) return false;
+  return std::ranges::any_of(
+      std::array<std::string_view, 2>{"K_tc_MPa", "K_t1_MPa"},
+      [&](std::string_view key) { return find(*force, key) != nullptr; });
 }
 
 /// Whether a surface is asked for of which nothing bends: it needs no forces.
@@ -375,6 +349,29 @@ Case read_case(const fs::path& file, std::optional<Command> command,
   return read_case(CaseSource{root, file, {}}, command, result_folder);
 }
 
+Command command_of(const Node& root) {
+  const auto has = [&root](std::string_view table) {
+    return find(root, table) != nullptr;
+  };
+  // Coefficients that are known are compared with a measurement, not searched.
+  const bool known = knows_coefficients(root);
+  if (has("program")) return Command::program;
+  if (has("plan")) return Command::plan;
+  if (has("correct")) return Command::correct;
+  if (has("command") && has("mode")) return Command::dynamics;
+  if (has("measurement")) {
+    return known && !has("identify") ? Command::simulate : Command::identify;
+  }
+  if (has("surface_measurement")) {
+    return known && has("surface") ? Command::surface : Command::calibrate;
+  }
+  if (has("stability")) return Command::stability;
+  if (!has("tool") && (has("frf") || has("measured_frf"))) return Command::modes;
+  if (!has("tool") && has("step")) return Command::actuator;
+  return has("surface") || has("wall") || has("cutter_body") ? Command::surface
+                                                             : Command::simulate;
+}
+
 void check_keys(const CaseSource& source) {
   Findings findings = findings_of(source);
   static_cast<void>(read_tables(source.root, std::nullopt, findings));
@@ -387,7 +384,7 @@ Case read_case(const CaseSource& source, std::optional<Command> command,
                const fs::path& result_folder) {
   const Node& root = source.root;
   Findings findings = findings_of(source);
-  const Command purpose = purpose_of(command, root);
+  const Command purpose = command.value_or(command_of(root));
   CaseTables tables = read_tables(root, purpose, findings, source.tool_only);
   settle_files(tables, source.data, findings);
   if (purpose == Command::modes && !tables.machine.measured_frfs.empty() &&

@@ -31,6 +31,16 @@ bool any_mean(const Case& c) {
                              [](const Measurement& m) { return !m.mean.empty(); });
 }
 
+/// Power or torque, and nothing else that is given.
+bool is_one_of_the_spindle(const Case& c) {
+  if (!c.dynamometer) return false;
+  const auto& channels = c.dynamometer->sensor.channels;
+  return channels.size() == 1 && !any_mean(c) && c.identify.prior.empty() &&
+         c.dynamometer->channel_sd.empty() &&
+         (channels.front().axis == force::ChannelAxis::power ||
+          channels.front().axis == force::ChannelAxis::torque);
+}
+
 /// One number for each channel.
 void check_count(const std::string& key, std::size_t count, std::size_t channels,
                  Findings& findings) {
@@ -224,14 +234,17 @@ void settle_channels(const CaseTables& tables, Command purpose, Findings& findin
   const bool means_only = std::ranges::all_of(
       c.measurements, [](const Measurement& m) { return !m.mean.empty(); });
   const bool plans_means = purpose == Command::plan && means_only;
+  const bool of_program = purpose == Command::program && is_one_of_the_spindle(c);
   if (purpose != Command::identify && purpose != Command::simulate && !plans_means &&
-      !c.measurements.empty()) {
-    report(
-        findings, "dynamometer.axes",
-        fmt::format("dynamometer.axes: {} takes records of the forces x, y and z only, "
-                    "without channel_sd{} or [prior]; identify takes any channels, "
-                    "and its material.toml can be included",
-                    name_of(purpose), purpose == Command::plan ? "" : ", mean"));
+      !of_program && !c.measurements.empty()) {
+    report(findings, "dynamometer.axes",
+           fmt::format(
+               "dynamometer.axes: {} takes records of the forces x, y and z only{}, "
+               "without channel_sd{} or [prior]; identify takes any channels, "
+               "and its material.toml can be included",
+               name_of(purpose),
+               purpose == Command::program ? ", or of power or torque alone" : "",
+               purpose == Command::plan ? "" : ", mean"));
   }
   if (purpose != Command::identify && !plans_means) return;
   if (!named && !(c.dynamometer && c.dynamometer->automatic)) {

@@ -1,4 +1,7 @@
+#include <trochoid/base/command.h>
 #include <trochoid/base/error.h>
+#include <trochoid/cases/case_source.h>
+#include <trochoid/cases/document.h>
 #include <trochoid/cases/findings.h>
 #include <trochoid/cli/commands.h>
 #include <trochoid/cli/deliver.h>
@@ -24,6 +27,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -45,12 +49,16 @@ void report_full_disks() {
 #endif
 }
 
-/// Named with the nearest one there is, before anything else is looked at.
-void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
-  const std::string first = argc > 1 ? argv[1] : "-";
-  if (first.starts_with('-')) {
-    return;
-  }
+/// `trochoid CASE.toml` runs the command that the tables of the case ask for.
+std::string command_of_case(const std::string& file) {
+  const trochoid::cases::Node root = trochoid::cases::load_document(file);
+  return trochoid::cases::find(root, "sweep") != nullptr
+             ? "sweep"
+             : std::string(name_of(trochoid::cases::command_of(root)));
+}
+
+/// An unknown one is named with the nearest one there is, before anything else is looked at.
+void refuse_unknown_command(const CLI::App& app, const std::string& first) {
   std::vector<std::string> names;
   for (const CLI::App* sub : app.get_subcommands({})) {
     names.push_back(sub->get_name());
@@ -67,11 +75,23 @@ int run(int argc, char** argv) {
   trochoid::cli::Chosen chosen;
   trochoid::cli::add_interface(app, chosen);
   trochoid::cli::add_manual(app);
-  refuse_unknown_command(app, argc, argv);
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  const std::string first = words.empty() ? "" : words.front();
+  const bool of_case = first.ends_with(".toml");
+  if (of_case) {
+    words.insert(words.begin(), command_of_case(first));
+  } else if (!words.empty() && !first.starts_with('-')) {
+    refuse_unknown_command(app, first);
+  }
+  const std::string name = words.empty() ? "" : words.front();
   try {
-    app.parse(argc, argv);
+    std::ranges::reverse(words);  // as CLI11 takes them
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? trochoid::cli::answered : trochoid::cli::wrong_input;
+  }
+  if (of_case && !chosen.options.quiet) {
+    trochoid::cli::complain(fmt::format("trochoid {} {}\n", name, first));
   }
   namespace numerics = trochoid::numerics;
   const int threads = chosen.options.threads;

@@ -1,11 +1,6 @@
 #include <trochoid/engagement/record.h>
 
-#include <trochoid/base/units.h>
-#include <trochoid/engagement/look.h>
-#include <trochoid/engagement/turn.h>
-#include <trochoid/numerics/least_squares.h>
 #include <trochoid/numerics/parallel.h>
-#include <trochoid/numerics/student.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,24 +20,17 @@ constexpr std::size_t most_bins = 2048;
 constexpr std::size_t most_compared = 4000;
 /// Parts of the program that are laid over the record each by itself.
 constexpr int parts = 6;
-/// Steps that a fit takes at most, and needs at least for each unknown.
-constexpr std::size_t most_fitted = 2000;
-constexpr std::size_t fitted_each = 6;
-constexpr std::size_t most_blocks = 30;
-/// A step is steady if its neighbours have the same force but for this part.
-constexpr double steady = 0.15;
 /// Less air tells no offset [s].
 constexpr double least_air = 0.05;
-constexpr double rank_tolerance = 3e-3;
 
-/// Mean forces of a record over any of its stretches.
+/// Means of a record over any of its stretches.
 class Means {
  public:
   explicit Means(const Recorded& record) : record_(record) {
-    sums_.resize(record.force.size() + 1);
-    for (std::size_t i = 0; i < record.force.size(); ++i) {
+    sums_.resize(record.value.size() + 1);
+    for (std::size_t i = 0; i < record.value.size(); ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
-        sums_[i + 1][c] = sums_[i][c] + record.force[i][c];
+        sums_[i + 1][c] = sums_[i][c] + record.value[i][c];
       }
     }
   }
@@ -59,6 +47,7 @@ class Means {
     return {at(from), at(to)};
   }
 
+  [[nodiscard]] Reads reads() const noexcept { return record_.reads; }
   [[nodiscard]] std::optional<Vector> mean(double from, double to) const noexcept {
     const auto [a, b] = within(from, to);
     if (b <= a) return std::nullopt;
@@ -107,19 +96,20 @@ class Correlation {
   double aa_ = 0.0, bb_ = 0.0, ab_ = 0.0;
 };
 
-/// Mean forces in bins of time.
-std::vector<Vector> computed_bins(std::span<const Step> steps, double bin,
+/// Means in bins of time.
+std::vector<Vector> computed_bins(std::span<const Step> steps, Reads reads, double bin,
                                   std::size_t count) {
   std::vector<Vector> out(count);
   for (const Step& step : steps) {
     const double from = step.time - 0.5 * step.duration;
     const double to = from + step.duration;
+    const Vector mean = mean_of(step, reads);
     const auto first = static_cast<std::size_t>(std::max(0.0, from / bin));
     for (std::size_t k = first; k < count && static_cast<double>(k) * bin < to; ++k) {
       const double share = std::min(to, static_cast<double>(k + 1) * bin) -
                            std::max(from, static_cast<double>(k) * bin);
       for (std::size_t c = 0; c < 3; ++c) {
-        out[k][c] += std::max(share, 0.0) / bin * step.forces.mean[c];
+        out[k][c] += std::max(share, 0.0) / bin * mean[c];
       }
     }
   }
@@ -141,7 +131,7 @@ std::optional<double> coarse_start(std::span<const Step> steps, const Recorded& 
                                    const Means& means, double bin) {
   const double end = steps.back().time + 0.5 * steps.back().duration;
   const auto count = static_cast<std::size_t>(end / bin) + 1;
-  const std::vector<Vector> computed = computed_bins(steps, bin, count);
+  const std::vector<Vector> computed = computed_bins(steps, record.reads, bin, count);
   const double zero = record.time.front();
   const auto there = static_cast<std::size_t>((record.time.back() - zero) / bin);
   std::vector<Vector> measured(there);
@@ -184,7 +174,7 @@ double agreement(std::span<const Step* const> rows, const Means& means, double s
     const double middle = start + stretch * row->time;
     const double half = 0.5 * stretch * row->duration;
     if (const auto mean = means.mean(middle - half, middle + half)) {
-      sum.add(row->forces.mean, *mean, row->duration);
+      sum.add(mean_of(*row, means.reads()), *mean, row->duration);
     }
   }
   return sum.value();
@@ -261,129 +251,30 @@ void stretch_over_parts(std::span<const Step* const> rows, const Means& means,
   out.scatter = std::sqrt(sum / n);
 }
 
-/// Means over a turn for a unit of each coefficient, in the axes of the program.
-std::vector<Vector> unit_means(const Found& found, const Tool& tool) {
-  const std::size_t n = force::coefficients(tool.law).size();
-  std::vector<Vector> out;
-  for (std::size_t k = 0; k < n; ++k) {
-    std::vector<double> unit(n);
-    unit[k] = 1.0;
-    Tool one = tool;
-    one.law = force::with_coefficients(tool.law, unit);
-    one.body.reset();
-    one.gauge_length = 0.0;
-    out.push_back(
-        in_program(loads_of(found.turn, one), found.step.direction, 1.0).mean);
-  }
-  return out;
-}
-
-bool is_alike(const Step& a, const Step& b) noexcept {
-  double difference = 0.0;
-  double size = 0.0;
+/// Into the mean of its speed, or of all where the speed does not matter.
+void add_air(const Step& step, const Vector& mean, Reads reads, Idle& idle) {
+  constexpr double same = 0.005;
+  const auto at = std::ranges::find_if(idle.speeds, [&](const Idle::AtSpeed& one) {
+    return reads == Reads::forces ||
+           std::abs(one.spindle - step.spindle) <= same * one.spindle;
+  });
+  Idle::AtSpeed& one = at != idle.speeds.end()
+                           ? *at
+                           : idle.speeds.emplace_back(Idle::AtSpeed{step.spindle});
+  const double air = one.air + step.duration;
   for (std::size_t c = 0; c < 3; ++c) {
-    difference = std::max(difference, std::abs(a.forces.mean[c] - b.forces.mean[c]));
-    size = std::max(size, std::abs(a.forces.mean[c]));
+    one.offset[c] += step.duration / air * (mean[c] - one.offset[c]);
   }
-  return difference <= steady * size;
-}
-
-/// Places of steady steps of a tool that the record has.
-std::vector<std::size_t> steady_steps(std::span<const Step> steps,
-                                      const RecordedSteps& recorded, std::size_t tool) {
-  std::vector<std::size_t> all;
-  for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
-    const Step& step = steps[i];
-    const bool bottom = step.cause == Cause::plunge || step.cause == Cause::ramp;
-    const std::size_t own = step.tool < 0 ? 0 : static_cast<std::size_t>(step.tool);
-    if (own == tool && step.a_p > 0 && !bottom && step.flags == 0 &&
-        recorded.steps[i].there && is_alike(step, steps[i - 1]) &&
-        is_alike(step, steps[i + 1])) {
-      all.push_back(i);
-    }
-  }
-  std::vector<std::size_t> out;
-  const std::size_t every = std::max<std::size_t>(1, all.size() / most_fitted);
-  for (std::size_t k = 0; k < all.size(); k += every) out.push_back(all[k]);
-  return out;
-}
-
-/// A linear fit of mean forces, rows three a step.
-struct Linear {
-  std::vector<double> A;  ///< row-major
-  std::vector<double> b;
-  std::size_t columns = 0;
-};
-
-/// Cov of N-24, from blocks of rows.
-std::vector<double> block_variances(const Linear& fit,
-                                    const numerics::LeastSquares& found,
-                                    std::size_t blocks) {
-  const std::size_t n = fit.columns;
-  const std::size_t rows = fit.b.size();
-  std::vector<double> meat(n * n);
-  for (std::size_t k = 0; k < blocks; ++k) {
-    std::vector<double> s(n);
-    for (std::size_t i = rows / 3 * k / blocks * 3; i < rows / 3 * (k + 1) / blocks * 3;
-         ++i) {
-      for (std::size_t c = 0; c < n; ++c) s[c] += fit.A[i * n + c] * found.residual[i];
-    }
-    for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t c = 0; c < n; ++c) meat[a * n + c] += s[a] * s[c];
-    }
-  }
-  const double more = static_cast<double>(blocks) / static_cast<double>(blocks - n);
-  std::vector<double> out(n);
-  for (std::size_t a = 0; a < n; ++a) {
-    for (std::size_t c = 0; c < n; ++c) {
-      for (std::size_t d = 0; d < n; ++d) {
-        out[a] += more * found.inverse_gram[a * n + c] * meat[c * n + d] *
-                  found.inverse_gram[d * n + a];
-      }
-    }
-  }
-  return out;
-}
-
-/// Columns of the unknowns of a fit: coefficients that are free, then offsets.
-Linear linear_of(const std::vector<std::vector<Vector>>& unit,
-                 std::span<const std::size_t> places, const RecordedSteps& recorded,
-                 std::span<const double> K, std::size_t free) {
-  Linear out;
-  const std::size_t offsets = recorded.idle.found ? 0 : 3;
-  out.columns = free + offsets;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      double known = 0.0;
-      for (std::size_t k = 0; k < K.size(); ++k) {
-        if (k < free) {
-          out.A.push_back(unit[i][k][c]);
-        } else {
-          known += K[k] * unit[i][k][c];
-        }
-      }
-      for (std::size_t o = 0; o < offsets; ++o) out.A.push_back(o == c ? 1.0 : 0.0);
-      out.b.push_back(recorded.steps[places[i]].mean[c] - known);
-    }
-  }
-  return out;
-}
-
-/// Looks at steps again for the stock around them, ascending.
-std::vector<Found> looked_at(const Job& job, std::span<const Step> steps,
-                             std::span<const std::size_t> places) {
-  Look look(job);
-  StepFinder finder(look.path(), job.options.step_turns);
-  std::vector<Found> out;
-  for (const std::size_t i : places) {
-    const Ask ask = finder.find(steps[i].step);
-    look.sweep_to(look.turns_of(ask) - 1);
-    out.push_back(look.at(ask));
-  }
-  return out;
+  one.air = air;
 }
 
 }  // namespace
+
+std::array<double, 3> Idle::at(double spindle) const noexcept {
+  const auto nearest = std::ranges::min_element(
+      speeds, {}, [&](const AtSpeed& one) { return std::abs(one.spindle - spindle); });
+  return nearest == speeds.end() ? std::array<double, 3>{} : nearest->offset;
+}
 
 Recorded by_lines(std::span<const Step> steps, const Recorded& record,
                   LineNumbers numbers) {
@@ -399,7 +290,7 @@ Recorded by_lines(std::span<const Step> steps, const Recorded& record,
         Span{from, from});
     at->second.to = from + step.duration;
   }
-  Recorded out;
+  Recorded out{.reads = record.reads};
   const std::size_t n = record.time.size();
   for (std::size_t i = 0, next = 0; i < n; i = next) {
     while (next < n && record.line[next] == record.line[i]) ++next;
@@ -414,7 +305,8 @@ Recorded by_lines(std::span<const Step> steps, const Recorded& record,
       const double t = from + part * (to - from);
       if (!out.time.empty() && !(t > out.time.back())) continue;
       out.time.push_back(t);
-      out.force.push_back(record.force[k]);
+      out.value.push_back(record.value[k]);
+      out.clock.push_back(record.time[k]);
     }
   }
   return out;
@@ -428,7 +320,7 @@ std::optional<Alignment> align(std::span<const Step> steps, const Recorded& reco
   }
   const Means means(record);
   const double end = steps.back().time + 0.5 * steps.back().duration;
-  const double bin = std::max(turn, end / most_bins);
+  const double bin = std::max({turn, end / most_bins, 2 * sample_time(record)});
   const auto start = coarse_start(steps, record, means, bin);
   if (!start) return std::nullopt;
   const std::vector<const Step*> rows = some_of(steps, most_compared);
@@ -439,8 +331,26 @@ std::optional<Alignment> align(std::span<const Step> steps, const Recorded& reco
   return out;
 }
 
-RecordedSteps over_steps(std::span<const Step> steps, const Recorded& record,
-                         const Alignment& alignment) {
+double sample_time(const Recorded& record) noexcept {
+  const auto n = static_cast<double>(record.time.size());
+  return n > 1 ? (record.time.back() - record.time.front()) / (n - 1) : 0.0;
+}
+
+std::array<double, 3> mean_of(const Step& step, Reads reads) noexcept {
+  switch (reads) {
+    case Reads::forces:
+      return step.forces.mean;
+    case Reads::power:
+      return {step.forces.power, 0.0, 0.0};
+    case Reads::torque:
+      return {step.forces.torque_mean, 0.0, 0.0};
+  }
+  return {};
+}
+
+RecordedSteps over_steps(std::span<const Step> steps, const LaidOver& over) {
+  const Recorded& record = over.record;
+  const Alignment& alignment = over.alignment;
   RecordedSteps out;
   const Means means(record);
   const auto window = [&](const Step& step) {
@@ -448,66 +358,32 @@ RecordedSteps over_steps(std::span<const Step> steps, const Recorded& record,
     const double half = 0.5 * alignment.stretch * step.duration;
     return std::pair(middle - half, middle + half);
   };
-  double air = 0.0;
   for (const Step& step : steps) {
     if (!step.layers.empty() || step.cause != Cause::air) continue;
     const auto [from, to] = window(step);
     const double rest = 0.2 * (to - from);  // times are known roughly
     const auto mean = means.mean(from + rest, to - rest);
-    if (!mean) continue;
-    air += step.duration;
-    for (std::size_t c = 0; c < 3; ++c)
-      out.idle.offset[c] += step.duration * (*mean)[c];
+    if (mean) add_air(step, *mean, record.reads, out.idle);
   }
-  out.idle.found = air > least_air;
-  for (double& o : out.idle.offset) o = out.idle.found ? o / air : 0.0;
+  std::erase_if(out.idle.speeds, [](const auto& one) { return one.air <= least_air; });
+  out.idle.found = !out.idle.speeds.empty();
   for (const Step& step : steps) {
     StepRecord& one = out.steps.emplace_back();
+    const Vector offset = out.idle.at(step.spindle);
     const auto [from, to] = window(step);
     const auto [a, b] = means.within(from, to);
     one.there = b > a && from >= record.time.front() && to <= record.time.back();
     if (!one.there) continue;
     for (std::size_t i = a; i < b; ++i) {
-      Vector F = record.force[i];
+      Vector F = record.value[i];
       for (std::size_t c = 0; c < 3; ++c) {
-        F[c] -= out.idle.offset[c];
+        F[c] -= offset[c];
         one.mean[c] += F[c] / static_cast<double>(b - a);
       }
       one.peak_xy = std::max(one.peak_xy, std::hypot(F[0], F[1]));
     }
   }
   return out;
-}
-
-std::optional<MeanFit> fit_means(const Job& job, std::span<const Step> steps,
-                                 const RecordedSteps& recorded, std::size_t tool) {
-  const std::vector<std::size_t> places = steady_steps(steps, recorded, tool);
-  const Tool& own = job.tools[tool];
-  const std::vector<double> K = force::coefficients(own.law);
-  if (places.size() < fitted_each * (K.size() + 3)) return std::nullopt;
-  const std::vector<Found> found = looked_at(job, steps, places);
-  std::vector<std::vector<Vector>> unit(found.size());
-  numerics::for_each_index(
-      found.size(), [&](std::size_t i) { unit[i] = unit_means(found[i], own); }, 4);
-  const std::size_t blocks = std::min(most_blocks, places.size() / 3);
-  for (const std::size_t free : {K.size(), std::min<std::size_t>(3, K.size())}) {
-    const Linear fit = linear_of(unit, places, recorded, K, free);
-    const numerics::LeastSquares least = numerics::least_squares(
-        fit.A, static_cast<int>(fit.columns), fit.b, rank_tolerance);
-    if (least.rank < static_cast<int>(fit.columns) || blocks < fit.columns + 3)
-      continue;
-    const std::vector<double> variance = block_variances(fit, least, blocks);
-    MeanFit out{.K = K, .se = std::vector<std::optional<double>>(K.size())};
-    for (std::size_t k = 0; k < free; ++k) {
-      out.K[k] = least.x[k];
-      out.se[k] = std::sqrt(std::max(variance[k], 0.0));
-    }
-    out.steps = places.size();
-    out.factor = numerics::student_t(0.975, static_cast<double>(blocks - fit.columns));
-    out.rms = std::sqrt(least.rss / static_cast<double>(fit.b.size()));
-    return out;
-  }
-  return std::nullopt;
 }
 
 }  // namespace trochoid::engagement

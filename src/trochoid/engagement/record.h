@@ -10,11 +10,23 @@
 
 namespace trochoid::engagement {
 
-/// Forces on the tool in the axes of the program, recorded while it ran.
+/// What a record of a program has: forces on the tool in the axes of the program, the power
+/// of the spindle, or its torque.
+enum class Reads { forces, power, torque };
+
+/// As files spell it.
+constexpr std::string_view name_of(Reads reads) noexcept {
+  constexpr std::array<std::string_view, 3> names{"forces", "power", "torque"};
+  return names[static_cast<std::size_t>(reads)];
+}
+
+/// What was recorded while a program ran.
 struct Recorded {
   std::vector<double> time;                  ///< [s], ascending
-  std::vector<std::array<double, 3>> force;  ///< [N], shape of time
+  std::vector<std::array<double, 3>> value;  ///< [N]; or power [W], torque [N m], 0, 0
   std::vector<int> line;                     ///< of the program, shape of time; or none
+  Reads reads = Reads::forces;
+  std::vector<double> clock = {};  ///< where `time` is that of the program, its own [s]
 };
 
 /// What controls tell of where they are: the line of the text, or its N number.
@@ -36,8 +48,7 @@ Recorded by_lines(std::span<const Step> steps, const Recorded& record,
                   LineNumbers numbers);
 
 /// @brief How the time of a record lies over the time of the program.
-/// @eq N-23 t_record = start + stretch t_program, where the mean forces of the steps
-///          correlate most
+/// @eq N-23 t_record = start + stretch t_program, where the means of the steps correlate most
 /// @src standard
 struct Alignment {
   double start = 0.0;  ///< of the program, in the time of the record [s]
@@ -51,17 +62,37 @@ struct Alignment {
 /// @return nothing where nothing is cut, or the record is shorter than ten turns
 std::optional<Alignment> align(std::span<const Step> steps, const Recorded& record);
 
+/// A record, and where it lies over its program.
+struct LaidOver {
+  Recorded record;
+  Alignment alignment;
+};
+
+/// Time from sample to sample, on the average [s].
+double sample_time(const Recorded& record) noexcept;
+
+/// @brief What a record should read in a step on the average, as Recorded::value.
+std::array<double, 3> mean_of(const Step& step, Reads reads) noexcept;
+
 /// What was recorded in a step.
 struct StepRecord {
   bool there = false;            ///< false: the record does not have it
-  std::array<double, 3> mean{};  ///< [N]
-  double peak_xy = 0.0;          ///< [N]
+  std::array<double, 3> mean{};  ///< as Recorded::value
+  double peak_xy = 0.0;          ///< of forces [N]
 };
 
-/// What a channel reads where nothing cuts.
+/// What a record reads where nothing cuts: power at each speed of the spindle, else at any.
 struct Idle {
-  std::array<double, 3> offset{};  ///< [N]
-  bool found = false;              ///< false: the program has too little air
+  struct AtSpeed {
+    double spindle = 0.0;            ///< [rad/s]
+    double air = 0.0;                ///< how long [s]
+    std::array<double, 3> offset{};  ///< as Recorded::value
+  };
+  std::vector<AtSpeed> speeds;
+  bool found = false;  ///< false: the program has too little air
+
+  /// At the nearest of the speeds; 0 where none was found.
+  [[nodiscard]] std::array<double, 3> at(double spindle) const noexcept;
 };
 
 /// @brief The record in each step, without what it reads where nothing cuts.
@@ -69,29 +100,6 @@ struct RecordedSteps {
   std::vector<StepRecord> steps;  ///< shape (steps)
   Idle idle;
 };
-RecordedSteps over_steps(std::span<const Step> steps, const Recorded& record,
-                         const Alignment& alignment);
-
-/// @brief Coefficients of one tool from the mean forces of the steps of a program.
-///
-/// Linear in the coefficients, so no start is needed. Runout hardly changes means and stays
-/// as it is. Errors are those of blocks of steps: what is wrong with one step is wrong with
-/// its neighbours.
-/// @eq N-24 K = argmin sum |F_measured - D K - c|^2 over steps, D the means for a unit of
-///          each coefficient, c the offsets where no air tells them;
-///          Cov K = G (sum over blocks of s s') G, G = (D'D)^-1, s = sum over a block D'r
-/// @src standard
-struct MeanFit {
-  std::vector<double> K;                  ///< in the order of force::coefficients
-  std::vector<std::optional<double>> se;  ///< nothing: not told, K is that of the tool
-  std::size_t steps = 0;                  ///< that were used
-  double factor = 2.0;                    ///< of the 95 % interval
-  double rms = 0.0;                       ///< that is left [N]
-};
-
-/// @param tool  of whose steps, in Job::tools
-/// @return nothing where too few steps are steady
-std::optional<MeanFit> fit_means(const Job& job, std::span<const Step> steps,
-                                 const RecordedSteps& recorded, std::size_t tool);
+RecordedSteps over_steps(std::span<const Step> steps, const LaidOver& over);
 
 }  // namespace trochoid::engagement

@@ -67,19 +67,22 @@ std::string law_shape_toml(const force::Law& law, force::EdgeLength edge_length)
   return text;
 }
 
-std::string material_toml(const Fit& fit, force::EdgeLength edge_length) {
-  return material_toml(fit, identification::groups_of(fit).front(), edge_length);
+std::string material_toml(const Fit& fit, force::EdgeLength edge_length,
+                          std::string_view command) {
+  return material_toml(fit, identification::groups_of(fit).front(), edge_length,
+                       command);
 }
 
 std::string material_toml(const Fit& fit, const identification::Group& group,
-                          force::EdgeLength edge_length) {
+                          force::EdgeLength edge_length, std::string_view command) {
   std::string text;
   if (const auto reasons = identification::reasons_against(fit); !reasons.empty()) {
     text += "# " + identification::do_not_use(reasons) + "\n\n";
   }
-  text +=
-      "# Found by trochoid identify. Use it in another case with\n"
-      "#   include = \"<this file>\"\n";
+  text += fmt::format(
+      "# Found by trochoid {}. Use it in another case with\n"
+      "#   include = \"<this file>\"\n",
+      command);
   if (fit.groups.size() > 1) {
     text += fmt::format("# Of {}.\n", identification::label_of_group(group.name));
   }

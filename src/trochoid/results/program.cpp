@@ -2,6 +2,7 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/results/descriptions.h>
+#include <trochoid/results/program_record.h>
 #include <trochoid/results/program_steps.h>
 
 #include <fmt/core.h>
@@ -245,77 +246,6 @@ const Fields<ProgramWalls>& wall_fields() {
   return all;
 }
 
-/// A coefficient in the unit of its key.
-struct InUnit {
-  const RecordCoefficient& one;
-  double factor;
-};
-
-const Fields<InUnit>& coefficient_fields() {
-  using C = const InUnit&;
-  static const Fields<InUnit> all{
-      {"key", "of [force]", [](C c) { return c.one.key; }},
-      {"stated", "by the case, in the unit of the key",
-       [](C c) { return as_named(c.one.stated / c.one.unit); }},
-      {"found", "the same, from the record; left out: the record does not tell it",
-       [](C c) { return as_named(c.one.found / c.one.unit); },
-       [](C c) { return c.one.se.has_value(); }},
-      {"se", "one standard error",
-       [](C c) { return as_named(c.one.se.value_or(0.0) / c.one.unit); },
-       [](C c) { return c.one.se.has_value(); }},
-      {"low", "of the 95 % confidence interval",
-       [](C c) {
-         return as_named((c.one.found - c.factor * c.one.se.value_or(0.0)) /
-                         c.one.unit);
-       },
-       [](C c) { return c.one.se.has_value(); }},
-      {"high", "the same",
-       [](C c) {
-         return as_named((c.one.found + c.factor * c.one.se.value_or(0.0)) /
-                         c.one.unit);
-       },
-       [](C c) { return c.one.se.has_value(); }}};
-  return all;
-}
-
-std::vector<InUnit> coefficients_of(const ProgramRecord& record) {
-  std::vector<InUnit> out;
-  for (const RecordCoefficient& one : record.coefficients) {
-    out.push_back({one, record.factor});
-  }
-  return out;
-}
-
-const Fields<ProgramRecord>& record_fields() {
-  using R = const ProgramRecord&;
-  static const Fields<ProgramRecord> all{
-      {"file", "the record", [](R r) { return r.file; }},
-      {"numbers",
-       "what `line_column` counts, `line` of the text or `block` (N): the record has the "
-       "times of the program then, and `start_s` and `stretch` are what is left; else `null`",
-       [](R r) { return r.numbers ? Value(name_of(*r.numbers)) : Value(); }},
-      {"start_s", "of the program, in the time of the record",
-       [](R r) { return r.alignment.start; }},
-      {"stretch", "seconds of the record for a second of the program",
-       [](R r) { return r.alignment.stretch; }},
-      {"scatter_s", "of parts of the program about that, rms",
-       [](R r) { return r.alignment.scatter; }},
-      {"correlation", "of measured and computed mean forces; 1: alike but for a factor",
-       [](R r) { return r.alignment.correlation; }},
-      {"steps", "in cut that the record has", [](R r) { return r.covered; }},
-      {"mean_ratio", "measured over computed mean force, median of these steps",
-       [](R r) { return r.mean_ratio; }},
-      {"peak_ratio", "the same of the largest force across the axis",
-       [](R r) { return r.peak_ratio; }},
-      {"fitted_steps", "steady ones, from which the coefficients are found; 0: too few",
-       [](R r) { return r.fitted_steps; }},
-      {"rms_N", "of the mean forces that the coefficients found leave",
-       [](R r) { return r.rms; }, [](R r) { return r.fitted_steps > 0; }},
-      {"coefficients", "from the mean forces of the steps", coefficient_fields(),
-       [](R r) { return coefficients_of(r); }}};
-  return all;
-}
-
 const Fields<ProgramForces>& force_fields() {
   using F = const ProgramForces&;
   static const Fields<ProgramForces> all{
@@ -361,25 +291,6 @@ const Fields<ProgramResult>& program_fields() {
       {"", "", force_fields(), [](R r) { return std::optional(*r.forces); },
        [](R r) { return r.forces.has_value(); }}};
   return all;
-}
-
-/// What the table says of the record.
-std::string record_text(const ProgramRecord& record) {
-  std::string out = fmt::format(
-      "\nrecord {}: the program starts at {:.4g} s, {} steps in cut\nmeasured over "
-      "computed: {:.3f} of the mean force, {:.3f} of the largest\n",
-      record.file, record.alignment.start, record.covered, record.mean_ratio,
-      record.peak_ratio);
-  if (record.coefficients.empty()) return out;
-  out += fmt::format("{:<18}{:>12}{:>12}{:>11}\n", "from the means", "stated", "found",
-                     "+- (95 %)");
-  for (const RecordCoefficient& one : record.coefficients) {
-    out += fmt::format("{:<18}{:>12.4g}", one.key, one.stated / one.unit);
-    out += one.se ? fmt::format("{:>12.4g}{:>11.2g}\n", one.found / one.unit,
-                                record.factor * *one.se / one.unit)
-                  : fmt::format("{:>12}\n", "not told");
-  }
-  return out;
 }
 
 /// What the table says of walls and of chatter.
@@ -470,6 +381,11 @@ Answer answer_of(const ProgramResult& r) {
   if (r.forces) answer.tables = tables_of_forces(r);
   if (r.forces && r.forces->feed && !r.forces->feed->file.empty()) {
     answer.texts.push_back({r.forces->feed->file, r.forces->feed->text, true});
+  }
+  if (r.forces && r.forces->record) {
+    if (auto material = material_of(*r.forces->record)) {
+      answer.texts.push_back({"material.toml", *std::move(material)});
+    }
   }
   if (r.all_moves || r.program.moves.size() <= most_moves) {
     answer.tables.push_back(move_columns().table(r));

@@ -3,6 +3,7 @@
 #include <trochoid/engagement/chatter.h>
 #include <trochoid/engagement/feed.h>
 #include <trochoid/engagement/record.h>
+#include <trochoid/engagement/record_fit.h>
 #include <trochoid/engagement/steps.h>
 #include <trochoid/engagement/walls.h>
 #include <trochoid/program/move.h>
@@ -81,13 +82,17 @@ struct ProgramRecord {
   std::optional<engagement::LineNumbers> numbers;  ///< that the record has
   engagement::Alignment alignment;
   engagement::RecordedSteps recorded;
+  engagement::Reads reads = engagement::Reads::forces;
   std::size_t covered = 0;  ///< rows in cut that the record has
-  double mean_ratio = 0.0;  ///< of the measured to the computed mean force
+  double mean_ratio = 0.0;  ///< of the measured to the computed mean
   double peak_ratio = 0.0;  ///< the same of the largest force of a turn
   double factor = 2.0;      ///< of the 95 % intervals
   std::size_t fitted_steps = 0;
-  double rms = 0.0;                             ///< that the fit leaves [N]
+  double rms = 0.0;  ///< that the fit leaves [N], of power [W], of torque [N m]
   std::vector<RecordCoefficient> coefficients;  ///< empty: too few steady steps
+  std::vector<engagement::SteadyCut> cuts;      ///< whose forces are fitted
+  std::optional<identification::Fit> fit;       ///< of these; nothing: there are none
+  force::EdgeLength edge_length = force::EdgeLength::true_length;
 };
 
 /// A wall that a line leaves.

@@ -1,5 +1,7 @@
 #include <trochoid/results/program_steps.h>
 
+#include <trochoid/results/program_record.h>
+
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
@@ -351,52 +353,6 @@ const Columns<LineRows>& line_columns() {
   return all;
 }
 
-/// Steps beside their record.
-struct RecordRows {
-  const std::vector<Step>& steps;
-  const ProgramRecord& record;
-};
-
-const Columns<RecordRows>& record_columns() {
-  using R = const RecordRows&;
-  const auto of_record = [](auto get) {
-    return [get](R r, std::size_t i) {
-      const engagement::StepRecord& one = r.record.recorded.steps[i];
-      return one.there ? get(one) : nothing_there;
-    };
-  };
-  using S = const engagement::StepRecord&;
-  static const Columns<RecordRows> all{
-      "measured_steps.csv",
-      [](R r) { return r.steps.size(); },
-      {{"step", "as in steps.csv", [](R r, std::size_t i) { return r.steps[i].step; }},
-       {"line", "of the text, from 1",
-        [](R r, std::size_t i) { return r.steps[i].line; }},
-       {"time_s", "of the program", [](R r, std::size_t i) { return r.steps[i].time; }},
-       {"record_time_s", "of the record",
-        [](R r, std::size_t i) {
-          return r.record.alignment.start +
-                 r.record.alignment.stretch * r.steps[i].time;
-        }},
-       {"Fx_mean_N",
-        "as measured, mean of the step in the axes of the program; empty: "
-        "not in the record",
-        of_record([](S s) { return s.mean[0]; })},
-       {"Fy_mean_N", "the same", of_record([](S s) { return s.mean[1]; })},
-       {"Fz_mean_N", "the same", of_record([](S s) { return s.mean[2]; })},
-       {"peak_xy_N", "largest force across the axis, as measured",
-        of_record([](S s) { return s.peak_xy; })},
-       {"computed_Fx_mean_N", "as in steps.csv",
-        [](R r, std::size_t i) { return r.steps[i].forces.mean[0]; }},
-       {"computed_Fy_mean_N", "the same",
-        [](R r, std::size_t i) { return r.steps[i].forces.mean[1]; }},
-       {"computed_Fz_mean_N", "the same",
-        [](R r, std::size_t i) { return r.steps[i].forces.mean[2]; }},
-       {"computed_peak_xy_N", "the same",
-        [](R r, std::size_t i) { return r.steps[i].forces.peak_xy; }}}};
-  return all;
-}
-
 /// The feed of each step, steps alike joined.
 struct FeedRow {
   engagement::WantedFeed feed;
@@ -467,7 +423,7 @@ std::vector<base::Table> tables_of_forces(const ProgramResult& result) {
                             all.chatter ? &*all.chatter : nullptr,
                             all.walls ? &*all.walls : nullptr}),
       step_arc_columns().table(arcs_of(all.steps, false))};
-  if (all.record) out.push_back(record_columns().table({all.steps, *all.record}));
+  if (all.record) out.push_back(table_of_record(all.steps, *all.record));
   if (all.feed) out.push_back(feed_columns().table(feed_rows(all.feed->steps)));
   if (!all.places.empty()) {
     out.push_back(place_columns().table({all.places, all.asked, all.teeth, tools}));
@@ -480,7 +436,7 @@ void add_texts_of_forces(std::vector<ColumnText>& out) {
   line_columns().add_texts(out);
   step_columns().add_texts(out);
   step_arc_columns().add_texts(out);
-  record_columns().add_texts(out);
+  add_texts_of_record(out);
   feed_columns().add_texts(out);
   place_columns().add_texts(out);
   place_arc_columns().add_texts(out);

@@ -2,6 +2,7 @@
 
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
+#include <trochoid/geometry/edge.h>
 #include <trochoid/numerics/median.h>
 #include <trochoid/signal/axes.h>
 
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace trochoid::run {
@@ -21,7 +23,37 @@ constexpr double least_correlation = 0.5;
 /// A clock that differs more is said.
 constexpr double same_clock = 0.005;
 
-/// Forces on the tool over the time; axes of the table are those of the program.
+/// What the channels read: three forces, or one that is power or torque.
+engagement::Reads reads_of(const cases::Case& given) {
+  if (!given.identify.by_channels) return engagement::Reads::forces;
+  return given.dynamometer->sensor.channels.front().axis == force::ChannelAxis::power
+             ? engagement::Reads::power
+             : engagement::Reads::torque;
+}
+
+/// Forces on the tool in the axes of the program, or the one channel there is.
+std::vector<std::array<double, 3>> values_of(const cases::Case& given,
+                                             const signal::Record& record,
+                                             std::vector<std::string>& problems) {
+  std::vector<std::array<double, 3>> out;
+  if (given.identify.by_channels) {
+    const double sign = given.dynamometer->sensor.channels.front().sign;
+    for (const double one : record.channel[0]) out.push_back({sign * one, 0.0, 0.0});
+    return out;
+  }
+  if (!std::ranges::all_of(record.measured, [](bool there) { return there; })) {
+    problems.push_back(
+        fmt::format("{}: a channel is missing; a record of a program needs x, y and z",
+                    record.file));
+  }
+  signal::Matrix3 axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  if (given.dynamometer) axes = given.dynamometer->matrix;
+  auto force = signal::force_on_tool(record.channel, axes);
+  if (!force) problems.push_back("dynamometer.matrix: it cannot be inverted");
+  return force ? *std::move(force) : std::move(out);
+}
+
+/// The record over the time.
 engagement::Recorded recorded_of(const cases::Case& given) {
   const cases::Measurement& m = given.measurements.front();
   const signal::Record& record = m.record.get();
@@ -32,24 +64,14 @@ engagement::Recorded recorded_of(const cases::Case& given) {
                     "sample_rate_Hz in [[measurement]]",
                     record.file));
   }
-  if (!std::ranges::all_of(record.measured, [](bool there) { return there; })) {
-    problems.push_back(
-        fmt::format("{}: a channel is missing; a record of a program needs x, y and z",
-                    record.file));
-  }
-  signal::Matrix3 axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  if (given.dynamometer) axes = given.dynamometer->matrix;
-  auto force = signal::force_on_tool(record.channel, axes);
-  if (!force) {
-    problems.push_back("dynamometer.matrix: it cannot be inverted");
-  }
+  const auto values = values_of(given, record, problems);
   if (!problems.empty()) throw base::InputError(std::move(problems));
-  engagement::Recorded out;
+  engagement::Recorded out{.reads = reads_of(given)};
   for (std::size_t i = 0; i < record.time.size(); ++i) {
     const double t = record.time[i];
     if (t < m.from.value_or(t) || t > m.to.value_or(t)) continue;
     out.time.push_back(t);
-    out.force.push_back((*force)[i]);
+    out.value.push_back(values[i]);
     if (!record.line.empty()) {
       out.line.push_back(static_cast<int>(std::lround(record.line[i])));
     }
@@ -57,34 +79,30 @@ engagement::Recorded recorded_of(const cases::Case& given) {
   return out;
 }
 
-/// A record over its program, by its times or by the lines that it has.
-struct LaidOver {
+/// A record over its program, by its times or by the lines that it has. Where no place is
+/// found, the correlation is 0.
+struct Placed {
   std::optional<engagement::LineNumbers> numbers;
-  engagement::Recorded recorded;
-  std::optional<engagement::Alignment> alignment;
-
-  [[nodiscard]] double correlation() const noexcept {
-    return alignment ? alignment->correlation : 0.0;
-  }
+  engagement::LaidOver over;
 };
 
-/// By lines or N numbers: by those with which the forces agree better.
-LaidOver laid_over(std::span<const engagement::Step> steps,
-                   engagement::Recorded recorded) {
+/// By lines or N numbers: by those with which the record agrees better.
+Placed placed(std::span<const engagement::Step> steps, engagement::Recorded recorded) {
   using engagement::LineNumbers;
-  if (recorded.line.empty()) {
-    const auto alignment = engagement::align(steps, recorded);
-    return {std::nullopt, std::move(recorded), alignment};
-  }
-  const auto by = [&](LineNumbers numbers) {
-    auto timed = engagement::by_lines(steps, recorded, numbers);
+  const auto at = [&](std::optional<LineNumbers> numbers, engagement::Recorded timed) {
     const auto alignment = engagement::align(steps, timed);
-    return LaidOver{numbers, std::move(timed), alignment};
+    return Placed{numbers,
+                  {std::move(timed), alignment.value_or(engagement::Alignment{})}};
   };
-  LaidOver lines = by(LineNumbers::line);
-  LaidOver blocks = by(LineNumbers::block);
-  return blocks.correlation() > lines.correlation() ? std::move(blocks)
-                                                    : std::move(lines);
+  if (recorded.line.empty()) return at(std::nullopt, std::move(recorded));
+  const auto by = [&](LineNumbers numbers) {
+    return at(numbers, engagement::by_lines(steps, recorded, numbers));
+  };
+  Placed lines = by(LineNumbers::line);
+  Placed blocks = by(LineNumbers::block);
+  return blocks.over.alignment.correlation > lines.over.alignment.correlation
+             ? std::move(blocks)
+             : std::move(lines);
 }
 
 double size_of(const std::array<double, 3>& F) {
@@ -99,7 +117,7 @@ void compare(std::span<const engagement::Step> steps, results::ProgramRecord& ou
     const engagement::StepRecord& one = out.recorded.steps[i];
     const engagement::TurnForces& F = steps[i].forces;
     if (!one.there || !(F.peak_xy > 0)) continue;
-    means.push_back(size_of(one.mean) / size_of(F.mean));
+    means.push_back(size_of(one.mean) / size_of(mean_of(steps[i], out.reads)));
     peaks.push_back(one.peak_xy / F.peak_xy);
   }
   out.covered = means.size();
@@ -110,8 +128,8 @@ void compare(std::span<const engagement::Step> steps, results::ProgramRecord& ou
 
 void add_coefficients(const engagement::Job& job, std::size_t tool,
                       std::span<const engagement::Step> steps,
-                      results::ProgramRecord& out) {
-  const auto fit = engagement::fit_means(job, steps, out.recorded, tool);
+                      const engagement::LaidOver& over, results::ProgramRecord& out) {
+  const auto fit = engagement::fit_means(job, steps, over, out.recorded, tool);
   if (!fit) return;
   const force::Law& law = job.tools[tool].law;
   const auto quantities = force::coefficient_quantities(law);
@@ -123,6 +141,72 @@ void add_coefficients(const engagement::Job& job, std::size_t tool,
   out.fitted_steps = fit->steps;
   out.factor = fit->factor;
   out.rms = fit->rms;
+}
+
+/// Forces over the angle in steady cuts tell the runout, too.
+void add_fit(const engagement::Job& job, const cases::Case& given, std::size_t place,
+             std::span<const engagement::Step> steps, const engagement::LaidOver& over,
+             results::ProgramRecord& out) {
+  using identification::RunoutUnknowns;
+  const engagement::Idle& idle = out.recorded.idle;
+  out.cuts = engagement::steady_cuts(job, steps, over, idle, place);
+  if (out.cuts.empty()) return;
+  const engagement::Tool& tool = job.tools[place];
+  const auto unknowns = chip::feels_runout(tool.chip.model)
+                            ? given.identify.runout.value_or(RunoutUnknowns::offsets)
+                            : RunoutUnknowns::none;
+  out.fit = engagement::fit_forces(out.cuts, tool, unknowns, idle, job.options.stop);
+  out.edge_length = tool.edge_length;
+}
+
+/// How far each tooth reaches beyond the mean of all at the tip [m].
+std::vector<double> reaches_of(const geometry::Cutter& cutter,
+                               const geometry::Runout& runout) {
+  const std::vector<double> psi = geometry::tooth_angles(cutter);
+  std::vector<geometry::EdgePosition> teeth(psi.size());
+  geometry::edge_positions(runout, psi, cutter.profile.D / 2, 0.0, teeth);
+  double mean = 0.0;
+  for (const auto& tooth : teeth) mean += tooth.R / static_cast<double>(teeth.size());
+  std::vector<double> out;
+  for (const auto& tooth : teeth) out.push_back(tooth.R - mean);
+  return out;
+}
+
+/// Largest difference of the reach of a tooth; equal teeth can be numbered from any.
+double difference_of(const std::vector<double>& a, const std::vector<double>& b) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t shift = 0; shift < a.size(); ++shift) {
+    double most = 0.0;
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      most = std::max(most, std::abs(a[(j + shift) % a.size()] - b[j]));
+    }
+    least = std::min(least, most);
+  }
+  return least;
+}
+
+void warn_of_runout(const results::ProgramRecord& record, const engagement::Tool& tool,
+                    std::vector<base::Warning>& warnings) {
+  if (!record.fit || !record.fit->ok || !chip::feels_runout(tool.chip.model)) return;
+  const identification::Fit& fit = *record.fit;
+  double se = fit.eccentricity_se.value_or(0.0);
+  for (const auto& one : fit.radial_offsets_se) se = std::max(se, one.value_or(0.0));
+  const std::vector<double> found = reaches_of(tool.cutter, fit.runout);
+  const std::vector<double> stated = reaches_of(tool.cutter, tool.runout);
+  if (!(se > 0) || difference_of(found, stated) <= fit.interval_factor * se) return;
+  const auto in_um = [](std::vector<double> all) {
+    std::vector<std::string> out;
+    for (const double one : all) out.push_back(fmt::format("{:+.3g}", one / unit::um));
+    return out;
+  };
+  warnings.push_back(
+      {"other_runout",
+       fmt::format(
+           "{}: its forces tell another runout than the case: the teeth stand "
+           "{} um off their mean (stated: {}). material.toml has what was found: "
+           "include it in the case.",
+           record.file, fmt::join(in_um(found), ", "),
+           fmt::join(in_um(stated), ", "))});
 }
 
 void warn_of_record(const results::ProgramRecord& record,
@@ -145,7 +229,7 @@ void warn_of_record(const results::ProgramRecord& record,
   if (!other.empty()) {
     warnings.push_back(
         {"other_coefficients",
-         fmt::format("{}: its mean forces tell other coefficients than the case: {}.",
+         fmt::format("{}: its means tell other coefficients than the case: {}.",
                      record.file, fmt::join(other, ", "))});
   }
   if (!record.recorded.idle.found) {
@@ -164,22 +248,31 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
                                                 std::span<const engagement::Step> steps,
                                                 std::vector<base::Warning>& warnings) {
   if (given.measurements.empty()) return std::nullopt;
-  const LaidOver record = laid_over(steps, recorded_of(given));
+  Placed record = placed(steps, recorded_of(given));
+  const engagement::LaidOver& over = record.over;
   results::ProgramRecord out{.file = given.measurements.front().source.file.name,
-                             .numbers = record.numbers};
-  if (record.correlation() < least_correlation) {
+                             .numbers = record.numbers,
+                             .alignment = over.alignment,
+                             .reads = over.record.reads};
+  if (over.alignment.correlation < least_correlation) {
     warnings.push_back(
         {"record_does_not_fit",
-         fmt::format("{}: its forces do not fit this program (correlation {:.2f}). "
-                     "Check the axes of the dynamometer, and that the record is of "
-                     "this program.",
-                     out.file, record.correlation())});
+         fmt::format(
+             "{}: its {} not fit this program (correlation {:.2f}). "
+             "Check the axes of the dynamometer, and that the record is of "
+             "this program.",
+             out.file,
+             out.reads == engagement::Reads::forces ? "forces do" : "channel does",
+             over.alignment.correlation)});
     return std::nullopt;
   }
-  out.alignment = *record.alignment;
-  out.recorded = engagement::over_steps(steps, record.recorded, *record.alignment);
+  out.recorded = engagement::over_steps(steps, over);
   compare(steps, out);
-  if (!own.empty()) add_coefficients(job, own.front(), steps, out);
+  if (!own.empty()) {
+    add_coefficients(job, own.front(), steps, over, out);
+    add_fit(job, given, own.front(), steps, over, out);
+    warn_of_runout(out, job.tools[own.front()], warnings);
+  }
   warn_of_record(out, warnings);
   return out;
 }

@@ -127,6 +127,14 @@ class Hostile(InFolder):
                                           "did you mean simulate?")
         self.refused("xyz", says="trochoid xyz: there is no such command; there are simulate,")
 
+    def test_a_case_alone_runs_the_command_that_its_tables_ask_for(self):
+        self.write("cut.toml", simulation())
+        done = self.run_program("cut.toml", "--no-report")
+        self.assertIn("trochoid simulate cut.toml", done.stderr)
+        self.assertTrue((self.folder / "cut.simulate/summary.json").exists())
+        self.assertEqual(self.run_program("cut.toml", "-q").stderr, "")
+        self.refused("lost.toml", says="lost.toml:1:1: there is no such file")
+
     def test_check_takes_what_every_command_takes(self):
         self.write("cut.toml", simulation())
         before = self.everything()

@@ -18,6 +18,7 @@ PASSES = [(0.0, 1, (0.0, 180.0), 320),
           (6.0, -1, (60.0, 180.0), 480),
           (8.0, 1, (0.0, 60.0), 800)]
 TURNS = {}
+TORQUES = {}
 FIRST, LAST = -8.0, 22.0
 LINES = ["G21 G90 G17", "T1 M6", f"S{RPM} M3"]
 for y, way, _, feed in PASSES:
@@ -76,7 +77,9 @@ class Record(InFolder):
                 sampling={"angles_deg": [360 / angles * i for i in range(angles)]})))
             self.run_program("simulate", "turn.toml", "-o", "turn", "-q", "--no-report")
             with open(self.folder / "turn/forces.csv", newline="") as stream:
-                TURNS[key] = [[float(v) for v in row[2:5]] for row in list(csv.reader(stream))[1:]]
+                rows = list(csv.DictReader(stream))
+            TURNS[key] = [[float(row[f"F{axis}_N"]) for axis in "xyz"] for row in rows]
+            TORQUES[key] = self.summary("turn")["result"]["exact_mean_torque_Nm"]
         return TURNS[key]
 
     def make_record(self, before=0.7, stretch=1.0, offset=(3.0, -5.0, 2.0), noise=2.0, overrides=None):
@@ -91,6 +94,7 @@ class Record(InFolder):
             slower = next(passes) if row["kind"] == "line" else 1.0
             ends.append((time, time + slower * stretch * float(row["time_s"] or 0), row))
             time = ends[-1][1]
+        self.ends = ends
         line = lambda t: next((row["line"] for a, b, row in ends if a <= t < b), "0")
         chance = random.Random(1)
         fed = [end for end in ends if end[2]["kind"] == "line"]
@@ -175,6 +179,78 @@ class Record(InFolder):
         self.assertEqual(by_blocks["record"]["numbers"], "block")
         self.assertGreater(by_blocks["record"]["correlation"], 0.985)
         self.assertIn("no column", self.answer(self.case(**self.AXES), code=2, line_column="lines"))
+
+    def test_the_runout_from_steady_cuts(self):  # [N-26]
+        """The case says that the tool runs true; the forces over the angle know better."""
+        self.make_record()
+        given = self.case({**TRUE, "K_tc_MPa": 2300}, **self.AXES,
+                          runout={"radial_offsets_mm": [0.0, 0.0]})
+        result, warnings = self.answer(given)
+        fit = result["record"]["fit"]
+        self.assertTrue(fit["ok"])
+        self.assertGreaterEqual(len({cut["line"] for cut in result["record"]["cuts"]}), 3)
+        self.assertAlmostEqual(abs(fit["runout"]["radial_offsets_mm"][1]), 0.008, delta=0.0002)
+        for key, value in TRUE.items():
+            if key != "law":
+                self.assertAlmostEqual(fit["coefficients"][key]["value"], value, delta=max(
+                    0.02 * value, 2 * (value - fit["coefficients"][key]["low"])), msg=key)
+        self.assertIn("another runout", warnings["other_runout"])
+        material = (self.folder / "out/material.toml").read_text()
+        self.assertIn("Found by trochoid program", material)
+        del given["force"], given["runout"]
+        self.write("material.toml", material)
+        text = program.case_text("again", given, [{"file": "record.csv"}])
+        self.write("case.toml", 'include = "material.toml"\n' + text)
+        self.run_program("program", "case.toml", "-o", "again", "-q", "--no-report")
+        again = self.summary("again")
+        self.assertAlmostEqual(again["result"]["record"]["peak_ratio"], 1, delta=0.03)
+        self.assertNotIn("other_runout", [w["code"] for w in again["warnings"]])
+
+    def test_a_machine_whose_feed_was_turned_up(self):
+        """The chip of the fit is that of the feed that ran, not of the feed in the program."""
+        self.make_record(overrides=[1.3, 0.8, 1.6])
+        result, _ = self.answer(self.case(**self.AXES), line_column="N_line")
+        for cut, slower in zip(sorted({c["line"]: c for c in result["record"]["cuts"]}.items()),
+                               [1.3, 0.8, 1.6]):
+            programmed = PASSES[[6, 10, 14].index(cut[0])][3] / RPM / 2
+            self.assertAlmostEqual(cut[1]["feed_per_tooth_mm"] * slower, programmed,
+                                   delta=0.01 * programmed)
+
+    def test_the_power_of_the_spindle(self):
+        """Ten readings a second of a spindle that takes 310 W in air tell K_tc and K_te."""
+        self.make_record()
+        ends = self.ends
+        lines = ["time_s,P_W"]
+        chance = random.Random(3)
+        for i in range(int((ends[-1][1] + 0.5) * 10)):
+            t, power = i / 10, 310 + chance.gauss(0, 1)
+            for (a, b, _), (_, way, side, feed) in zip(
+                    [end for end in ends if end[2]["kind"] == "line"], PASSES):
+                x = FIRST + (LAST - FIRST) * ((t - a) / (b - a) if way > 0 else (b - t) / (b - a))
+                if a <= t < b and arcs_at(side, way, x):
+                    self.turn(side, way, feed, x)
+                    power += TORQUES[(side, way, feed, tuple(map(tuple, arcs_at(side, way, x))))] * \
+                        2 * math.pi * RPM / 60
+            lines.append(f"{t!r},{power!r}")
+        self.write("record.csv", "\n".join(lines) + "\n")
+        stated = {**TRUE, "K_tc_MPa": 2200, "K_te_N_per_mm": 12}
+        given = self.case(stated, dynamometer={"axes": ["power"]})
+        result, warnings = self.answer(given)
+        record = result["record"]
+        self.assertEqual(record["reads"], "power")
+        self.assertNotIn("fit", record)
+        self.assertAlmostEqual(record["start_s"], 0.7, delta=0.1)
+        found = {c["key"]: c for c in record["coefficients"]}
+        for key in ("K_tc_MPa", "K_te_N_per_mm"):
+            half = found[key]["high"] - found[key]["found"]
+            self.assertAlmostEqual(found[key]["found"], TRUE[key], delta=1.5 * half)
+            self.assertLess(half, 0.3 * TRUE[key])
+        self.assertNotIn("found", found["K_rc_MPa"])
+        self.assertIn("K_tc_MPa", warnings["other_coefficients"])
+        rows = [row for row in self.rows("measured_steps.csv") if row["line"] == "6" and row["power_W"]]
+        self.assertGreater(len(rows), 20)
+        said = self.answer(self.case(dynamometer={"axes": ["power", "torque"]}), code=2)
+        self.assertIn("or of power or torque alone", said)
 
     def test_what_cannot_be_laid_over(self):
         self.make_record()

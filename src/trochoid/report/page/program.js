@@ -218,27 +218,52 @@ function overTime(report) {
     panel('largest torque', 'torque_peak_Nm', 'N m', 1)]) };
 }
 
-/** The record beside what was computed, and the coefficients that it tells. */
+/** The record over what was computed, and the coefficients and the runout that it gives. */
 function recordSection(report, record) {
   const t = tableNamed(report, 'measured_steps.csv');
   const time = columnNamed(t, 'time_s');
   const drawn = t?.drawn && time?.length > 2;
   const chart = drawn ? figure({ key: 'record', x: time, label: 'time of the program', unit: 's',
     caption: zoomHint + thinned(t) }) : null;
+  const forces = record.reads === 'forces';
   const rows = record.coefficients.map((one) => [el('code', {}, one.key), number(one.stated, 4),
-    isNumber(one.found) ? number(one.found, 4) : 'not told',
+    isNumber(one.found) ? number(one.found, 4) : 'not found',
     isNumber(one.found) ? `± ${fixed(one.high - one.found, 2)}` : '']);
+  const what = forces ? `mean force is ${fixed(record.mean_ratio, 3)} of the computed one, the largest force ${fixed(record.peak_ratio, 3)}`
+    : `${record.reads} is ${fixed(record.mean_ratio, 3)} of the computed one`;
   const part = section('record', 'The record over the program', 'Record',
-    prose(`The program starts at ${number(record.start_s, 4)} s of the record. Over ${number(record.steps)} turns in cut the ` +
-      `measured mean force is ${fixed(record.mean_ratio, 3)} of the computed one, the largest force ${fixed(record.peak_ratio, 3)}.`),
-    chart?.element, rows.length ? prose(`Coefficients from the mean forces of ${number(record.fitted_steps)} steady turns. ` +
+    prose(`The program starts at ${number(record.start_s, 4)} s of the record. Over ${number(record.steps)} turns in cut the measured ${what}.`),
+    chart?.element, rows.length ? prose(`Coefficients from the means of ${number(record.fitted_steps)} steady turns. ` +
       'The intervals are those of 95 %.') : null,
-    rows.length ? table(['coefficient', 'stated', 'found', 'interval'], rows) : null);
+    rows.length ? table(['coefficient', 'stated', 'found', 'interval'], rows) : null,
+    record.fit?.ok ? fitOfCuts(record) : null);
   const panel = (label, name, unit) => ({ label, unit, height: 180, series: [
     { name: 'measured', values: columnNamed(t, name), color: seriesColor(1) },
     { name: 'computed', values: columnNamed(t, `computed_${name}`), color: seriesColor(0) }] });
-  return { part, draw: () => chart?.draw([panel('largest force across', 'peak_xy_N', 'N'), panel('mean force in x', 'Fx_mean_N', 'N'),
-    panel('mean force in y', 'Fy_mean_N', 'N')]) };
+  const panels = { power: [panel('power', 'power_W', 'W')], torque: [panel('torque', 'torque_Nm', 'N m')],
+    forces: [panel('largest force across', 'peak_xy_N', 'N'), panel('mean force in x', 'Fx_mean_N', 'N'),
+      panel('mean force in y', 'Fy_mean_N', 'N')] };
+  return { part, draw: () => chart?.draw(panels[record.reads]) };
+}
+
+/** Coefficients and runout from the forces over the angle in steady cuts of the program. */
+function fitOfCuts(record) {
+  const { fit } = record;
+  const half = (value) => (isNumber(value) ? `± ${fixed(value, 2)}` : '');
+  const rows = Object.entries(fit.coefficients).filter(([, one]) => one)
+    .map(([key, one]) => [el('code', {}, key), number(one.value, 4), half(one.high - one.value)]);
+  const offsets = fit.runout?.radial_offsets_mm || [];
+  offsets.forEach((offset, j) => {
+    const se = fit.runout.radial_offsets_se_mm?.[j];
+    if (j > 0) rows.push([`tooth ${j + 1} stands out by, µm`, number(1000 * offset, 3), half(2000 * se)]);
+  });
+  if (fit.runout?.eccentricity_mm > 0) {
+    rows.push(['eccentricity, µm', number(1000 * fit.runout.eccentricity_mm, 3), half(2000 * fit.runout.eccentricity_se_mm)]);
+  }
+  const lines = [...new Set(record.cuts.map((cut) => cut.line))].join(', ');
+  return el('div', {}, prose(`Coefficients and runout from the force over the angle in ${record.cuts.length} steady cuts (lines ${lines}). ` +
+    `${fixed(100 * fit.unexplained.all, 2)} % of the force is not explained. `, el('code', {}, 'material.toml'),
+  ' has these numbers: include it in the next case.'), table(['', 'found', 'interval'], rows));
 }
 
 /** What the new feeds change, and what holds them for most of the time. */
