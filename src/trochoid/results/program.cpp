@@ -2,7 +2,6 @@
 
 #include <trochoid/base/units.h>
 #include <trochoid/results/descriptions.h>
-#include <trochoid/results/program_record.h>
 #include <trochoid/results/program_steps.h>
 
 #include <fmt/core.h>

@@ -1,4 +1,4 @@
-#include <trochoid/results/program_record.h>
+#include <trochoid/results/program_steps.h>
 
 #include <trochoid/base/units.h>
 #include <trochoid/results/fit_value.h>

@@ -1,7 +1,5 @@
 #include <trochoid/results/program_steps.h>
 
-#include <trochoid/results/program_record.h>
-
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 

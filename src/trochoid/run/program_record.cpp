@@ -126,12 +126,21 @@ void compare(std::span<const engagement::Step> steps, results::ProgramRecord& ou
   out.peak_ratio = numerics::median(std::move(peaks));
 }
 
-void add_coefficients(const engagement::Job& job, std::size_t tool,
-                      std::span<const engagement::Step> steps,
-                      const engagement::LaidOver& over, results::ProgramRecord& out) {
-  const auto fit = engagement::fit_means(job, steps, over, out.recorded, tool);
+/// A record over the rows of a program, and the tool whose cuts are looked at.
+struct OwnCuts {
+  const engagement::Job& job;
+  std::span<const engagement::Step> steps;
+  const engagement::LaidOver& over;
+  std::size_t place;  ///< of the tool in the job
+
+  [[nodiscard]] const engagement::Tool& tool() const { return job.tools[place]; }
+};
+
+void add_coefficients(const OwnCuts& own, results::ProgramRecord& out) {
+  const auto fit =
+      engagement::fit_means(own.job, own.steps, own.over, out.recorded, own.place);
   if (!fit) return;
-  const force::Law& law = job.tools[tool].law;
+  const force::Law& law = own.tool().law;
   const auto quantities = force::coefficient_quantities(law);
   const std::vector<double> stated = force::coefficients(law);
   for (std::size_t k = 0; k < quantities.size(); ++k) {
@@ -144,19 +153,18 @@ void add_coefficients(const engagement::Job& job, std::size_t tool,
 }
 
 /// Forces over the angle in steady cuts tell the runout, too.
-void add_fit(const engagement::Job& job, const cases::Case& given, std::size_t place,
-             std::span<const engagement::Step> steps, const engagement::LaidOver& over,
+void add_fit(const OwnCuts& own, const cases::Case& given,
              results::ProgramRecord& out) {
   using identification::RunoutUnknowns;
   const engagement::Idle& idle = out.recorded.idle;
-  out.cuts = engagement::steady_cuts(job, steps, over, idle, place);
+  out.cuts = engagement::steady_cuts(own.job, own.steps, own.over, idle, own.place);
   if (out.cuts.empty()) return;
-  const engagement::Tool& tool = job.tools[place];
-  const auto unknowns = chip::feels_runout(tool.chip.model)
+  const auto unknowns = chip::feels_runout(own.tool().chip.model)
                             ? given.identify.runout.value_or(RunoutUnknowns::offsets)
                             : RunoutUnknowns::none;
-  out.fit = engagement::fit_forces(out.cuts, tool, unknowns, idle, job.options.stop);
-  out.edge_length = tool.edge_length;
+  out.fit = engagement::fit_forces(out.cuts, own.tool(), unknowns, idle,
+                                   own.job.options.stop);
+  out.edge_length = own.tool().edge_length;
 }
 
 /// How far each tooth reaches beyond the mean of all at the tip [m].
@@ -269,9 +277,10 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
   out.recorded = engagement::over_steps(steps, over);
   compare(steps, out);
   if (!own.empty()) {
-    add_coefficients(job, own.front(), steps, over, out);
-    add_fit(job, given, own.front(), steps, over, out);
-    warn_of_runout(out, job.tools[own.front()], warnings);
+    const OwnCuts cuts{job, steps, over, own.front()};
+    add_coefficients(cuts, out);
+    add_fit(cuts, given, out);
+    warn_of_runout(out, cuts.tool(), warnings);
   }
   warn_of_record(out, warnings);
   return out;
