@@ -29,6 +29,8 @@ KEYS = "a table of the keys of an answer, one after the other"
 MAY = {f"src/trochoid/results/{file}.cpp:{name}_fields": KEYS for file, name in (
     ("calibrate", "calibrate"), ("identify", "identified"), ("dynamics", "motion"),
     ("stability", "stability"))}
+MAY |= {f"src/trochoid/python/trochoid/{file}.py": "made: a type for each key of each answer"
+        for file in ("answers", "dicts")}
 
 
 def code_files(top, folders, suffixes):

@@ -25,6 +25,7 @@ import unittest.mock
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 for folder in ("tests/reference", "tests/outside/cases"):
     sys.path.insert(0, str(ROOT / folder))
+import answer_kinds  # noqa: E402
 import case_file  # noqa: E402
 import described  # noqa: E402
 import program  # noqa: E402
@@ -151,12 +152,22 @@ class Pins(unittest.TestCase):
         if worked is not None:
             self.compare(stored["worked_cases"], worked, "worked cases")
         self.every_key_and_column_is_described(folder)
+        self.every_answer_has_its_types(folder)
 
     def every_key_and_column_is_described(self, folder):
         unknown = set().union(*(described.undescribed(summary.parent)
                                 for summary in folder.rglob("summary.json")))
         self.assertFalse(unknown, "not in docs/formats/results.md:\n"
                          + "\n".join(sorted(unknown)))
+
+    def every_answer_has_its_types(self, folder):
+        all_of, wrong = answer_kinds.with_types(), set()
+        for file in folder.rglob("summary.json"):
+            summary = json.loads(file.read_text())
+            wrong.update(answer_kinds.unlike(all_of, summary["command"], summary["result"],
+                                             summary["status"] == "ok"))
+        self.assertFalse(wrong, f"not as in {answer_kinds.DICTS.name}; answer_types_test.py "
+                         "--renew\n" + "\n".join(sorted(wrong)))
 
     def compare(self, then, now, what):
         differ = []

@@ -8,7 +8,9 @@ import math
 import os
 import pathlib
 import subprocess
+import sys
 import tempfile
+import typing
 import unittest
 import warnings
 
@@ -18,6 +20,9 @@ import trochoid
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 EXAMPLES = ROOT / "examples"
+sys.path.insert(0, str(ROOT / "tests/golden"))
+import answer_kinds  # noqa: E402
+
 PROGRAM = os.environ["TROCHOID"]
 
 # Command, file, options of the program, the same of Python: one of each command.
@@ -114,6 +119,31 @@ class SameAsProgram(unittest.TestCase):
 
     def test_there_is_a_run_of_every_command(self):
         self.assertEqual({run[0] for run in RUNS}, set(trochoid._case.COMMANDS))
+
+
+class Types(unittest.TestCase):
+    def test_an_answer_has_the_types_of_dicts(self):
+        all_of = answer_kinds.with_types()
+        for number, (command, file, _, _) in enumerate(RUNS):
+            with self.subTest(run=(command, file)):
+                answer = answer_of(number)
+                wrong = answer_kinds.unlike(all_of, command, answer.to_dict(), answer.ok)
+                self.assertEqual(wrong, [])
+                hint = typing.get_type_hints(getattr(trochoid, command))["return"]
+                self.assertIsInstance(answer, typing.get_args(hint) or hint)
+
+    def test_a_wrong_type_is_seen(self):
+        all_of, result = answer_kinds.with_types(), answer_of(0).to_dict()
+        del result["mean_N"]
+        result |= {"peak_xy_N": "large", "teeth": None, "min_N": 1.0, "torque": 1.0}
+        self.assertEqual(answer_kinds.unlike(all_of, "simulate", result, ok=True), [
+            "simulate: : without mean_N", "simulate: min_N: 1.0", "simulate: peak_xy_N: 'large'",
+            "simulate: teeth: null", "simulate: torque: no such key"])
+
+    def test_a_plan_is_of_what_is_planned(self):
+        self.assertIs(type(answer_of(len(RUNS) - 1)), trochoid.answers.PlanOfFinishAnswer)
+        for answer in trochoid.answers.BY_COMMAND.values():
+            self.assertGreater(len(typing.get_type_hints(answer)), 5, answer)
 
 
 class Plots(unittest.TestCase):

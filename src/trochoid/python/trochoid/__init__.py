@@ -13,7 +13,7 @@ is part of every name. Pages: docs/python.md, docs/formats/case.md,
 docs/formats/results.md.
 """
 
-from . import _core
+from . import _core, answers
 from ._answer import Answer, Values, Warned
 from ._case import Case
 from ._commands import (
@@ -58,6 +58,7 @@ __all__ = [
     "Values",
     "Warned",
     "actuator",
+    "answers",
     "calibrate",
     "chip",
     "correct",

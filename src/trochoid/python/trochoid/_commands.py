@@ -5,21 +5,25 @@ from __future__ import annotations
 import os
 import threading
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Optional, Union
 
-from . import _core
-from ._answer import Answer
+from . import _core, answers
 from ._case import Case, CaseLike, as_case
 from ._errors import AnswerWarning
 from ._measured import ReadingsLike, Records, Response, Responses, Step, with_measured
 
 
-def _told(answer: Answer) -> Answer:
-    for code, message in answer.warnings:
+def _told(core: _core.Answer, placed: Callable[[Path], str], default: Optional[Path]) -> Any:
+    """The answer, of the class that its command has in answers.py; its warnings are told."""
+    name = core.command
+    if name == "plan":
+        of = core.result().get("of")
+        name += f" of a {of}" if of else ""
+    for code, message in core.warnings:
         warnings.warn(f"[{code}] {message}", AnswerWarning, stacklevel=4)
-    return answer
+    return answers.BY_COMMAND[name](core, placed, default)
 
 
 def _answered(command: str, case: _core.CheckedCase, **options: bool) -> _core.Answer:
@@ -30,12 +34,12 @@ def _answered(command: str, case: _core.CheckedCase, **options: bool) -> _core.A
     wanted = _core.Wanted()
     if threading.current_thread() is not threading.main_thread():
         return _core.run(command, case, wanted, **options)
-    answers: list[_core.Answer] = []
+    found: list[_core.Answer] = []
     errors: list[BaseException] = []
 
     def work() -> None:
         try:
-            answers.append(_core.run(command, case, wanted, **options))
+            found.append(_core.run(command, case, wanted, **options))
         except BaseException as error:
             errors.append(error)
 
@@ -48,10 +52,10 @@ def _answered(command: str, case: _core.CheckedCase, **options: bool) -> _core.A
         raise
     if errors:
         raise errors.pop()
-    return answers[0]
+    return found[0]
 
 
-def _run(command: str, case: CaseLike, measured: Mapping[str, Any], **options: bool) -> Answer:
+def _run(command: str, case: CaseLike, measured: Mapping[str, Any], **options: bool) -> Any:
     """measured: data in memory, by the names of with_measured."""
     given = as_case(case)
     if any(data is not None for data in measured.values()):
@@ -63,10 +67,10 @@ def _run(command: str, case: CaseLike, measured: Mapping[str, Any], **options: b
 
     core = _answered(command, given._for(command), **options)
     default = None if given.file is None else given.file.with_suffix("." + command)
-    return _told(Answer(core, placed, default))
+    return _told(core, placed, default)
 
 
-def _bare(command: str, file: Union[str, os.PathLike], options: Mapping[str, Any]) -> Answer:
+def _bare(command: str, file: Union[str, os.PathLike], options: Mapping[str, Any]) -> Any:
     """Of measured data without a case, as `trochoid modes tip.csv`."""
     name = os.fspath(file)
     bare = _core.BareOptions()
@@ -77,14 +81,14 @@ def _bare(command: str, file: Union[str, os.PathLike], options: Mapping[str, Any
         return _core.bare_case(name, command, bare, folder).as_understood
 
     core = _answered(command, _core.bare_case(name, command, bare, ""))
-    return _told(Answer(core, placed, Path(name).with_suffix("." + command)))
+    return _told(core, placed, Path(name).with_suffix("." + command))
 
 
 def _is_bare(case: Any) -> bool:
     return isinstance(case, (str, os.PathLike)) and Path(case).suffix != ".toml"
 
 
-def simulate(case: CaseLike, *, records: Records = None) -> Answer:
+def simulate(case: CaseLike, *, records: Records = None) -> answers.SimulateAnswer:
     """Chip thickness, forces, torque and engagement of a case.
 
     Parameters
@@ -113,7 +117,7 @@ def simulate(case: CaseLike, *, records: Records = None) -> Answer:
 
 def identify(
     case: CaseLike, *, records: Records = None, curves: bool = False, anyway: bool = False
-) -> Answer:
+) -> answers.IdentifyAnswer:
     """Cutting coefficients and runout from measured forces, and how well each is known.
 
     Parameters
@@ -154,7 +158,7 @@ def identify(
     return _run("identify", case, {"records": records}, curves=curves, anyway=anyway)
 
 
-def surface(case: CaseLike) -> Answer:
+def surface(case: CaseLike) -> answers.SurfaceAnswer:
     """The surface location error that a cut leaves over feed and height.
 
     case: with ``[tool]``, ``[cut]``, ``[force]`` and ``[cutter_body]`` or ``[wall]``;
@@ -164,7 +168,7 @@ def surface(case: CaseLike) -> Answer:
     return _run("surface", case, {})
 
 
-def calibrate(case: CaseLike, *, readings: ReadingsLike = None) -> Answer:
+def calibrate(case: CaseLike, *, readings: ReadingsLike = None) -> answers.CalibrateAnswer:
     """Cutting coefficients and runout from a measured wall, without a dynamometer.
 
     case: as for :func:`surface`, with ``[[surface_measurement]]``, or ``readings`` as
@@ -175,7 +179,7 @@ def calibrate(case: CaseLike, *, readings: ReadingsLike = None) -> Answer:
     return _run("calibrate", case, {"readings": readings})
 
 
-def stability(case: CaseLike, *, responses: Responses = None) -> Answer:
+def stability(case: CaseLike, *, responses: Responses = None) -> answers.StabilityAnswer:
     """Floquet multiplier, limit depth and stability lobe diagram of a cut.
 
     case: with ``[tool]``, ``[cut]``, ``[force]``, ``[[mode]]`` (or ``[[measured_frf]]``)
@@ -187,7 +191,7 @@ def stability(case: CaseLike, *, responses: Responses = None) -> Answer:
     return _run("stability", case, {"responses": responses})
 
 
-def dynamics(case: CaseLike) -> Answer:
+def dynamics(case: CaseLike) -> answers.DynamicsAnswer:
     """Time-domain simulation of cutter, table and actuator while they cut, with runout.
 
     case: with ``[tool]``, ``[cut]``, ``[force]`` and ``[[mode]]``; perhaps ``[actuator]``
@@ -199,7 +203,7 @@ def dynamics(case: CaseLike) -> Answer:
 
 def correct(
     case: CaseLike, *, records: Records = None, simulate_controller: bool = False
-) -> Answer:
+) -> answers.CorrectAnswer:
     """The motion of the table that makes the flutes cut alike, and the command for it.
 
     case: with ``[tool]``, ``[cut]``, ``[force]``, ``[runout]`` (or measurements, or
@@ -210,7 +214,9 @@ def correct(
     return _run("correct", case, {"records": records}, **options)
 
 
-def plan(case: CaseLike, *, records: Records = None, readings: ReadingsLike = None) -> Answer:
+def plan(
+    case: CaseLike, *, records: Records = None, readings: ReadingsLike = None
+) -> Union[answers.PlanAnswer, answers.PlanOfWallAnswer, answers.PlanOfFinishAnswer]:
     """Which cut to measure next, how to measure and cut a wall, or which feed keeps Ra.
 
     case: with ``[plan]``; what was measured (``[[measurement]]`` or ``records``, of walls
@@ -220,7 +226,7 @@ def plan(case: CaseLike, *, records: Records = None, readings: ReadingsLike = No
     return _run("plan", case, {"records": records, "readings": readings})
 
 
-def program(case: CaseLike, *, moves: bool = False) -> Answer:
+def program(case: CaseLike, *, moves: bool = False) -> answers.ProgramAnswer:
     """The moves of a whole NC program in G code.
 
     case: with ``[tool]``, ``[force]``, ``[program]`` and ``[stock]``. Answers ``dialect``, ``moves``,
@@ -238,7 +244,7 @@ def modes(
     modes: int = 0,
     band: Sequence[float] = (),
     dataset: int = 0,
-) -> Answer:
+) -> answers.ModesAnswer:
     """Modal parameters from a measured frequency response function (FRF).
 
     Parameters
@@ -281,7 +287,7 @@ def actuator(
     step: Optional[Step] = None,
     step_um: Optional[float] = None,
     start_s: Optional[float] = None,
-) -> Answer:
+) -> answers.ActuatorAnswer:
     """Transfer function (gain and two poles) of an actuator from a measured step.
 
     case: a case with ``[step]``, a :class:`Step`, or the record of the step itself (CSV)

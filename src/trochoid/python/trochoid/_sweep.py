@@ -11,7 +11,7 @@ from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any, Optional, Union
 
-from . import _core
+from . import _core, answers
 from ._answer import Answer
 from ._case import CaseLike, as_case
 from ._commands import _told
@@ -82,7 +82,7 @@ def sweep(
     part_file: Union[str, os.PathLike, None] = None,
     progress: Optional[Callable[[int, int], object]] = None,
     **options: Any,
-) -> Answer:
+) -> answers.SweepAnswer:
     """Parameter sweep: one row per case, as ``trochoid sweep``.
 
     Parameters
@@ -174,7 +174,7 @@ def sweep(
     else:
         answer_rows(work, executor, in_flight, progress)
     default = None if given.file is None else given.file.with_suffix(".sweep")
-    answer = _told(Answer(work.take_answer(), work.case_toml, default))
+    answer = _told(work.take_answer(), work.case_toml, default)
     if folder is not None:
         answer.save(folder)
         if part_file is None:
