@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Install the Python module to an empty place, move it, and import it; then by pip.
+# Install the Python module to an empty place, move it, and import it; then by pip. Then pack it.
 # Usage: install_test.sh BUILD_FOLDER SCRATCH_FOLDER PYTHON
 set -euo pipefail
 root=$(cd -- "$(dirname -- "$0")/../../.." && pwd)
@@ -28,4 +28,11 @@ fi
   --disable-pip-version-check --target "$scratch/pip" . 2>&1) | grep -v 'as root' || true
 [ "$(peak "$scratch/pip")" = "$first" ]
 [ -f "$scratch/pip/trochoid/py.typed" ]
+
+# A source distribution has all that the module is built of, as far as CMake looks for it.
+(cd "$root" && "$python" -W ignore setup.py -q sdist --dist-dir "$scratch/sdist" 2>/dev/null)
+tar xzf "$scratch"/sdist/trochoid-*.tar.gz -C "$scratch/sdist"
+cmake -S "$scratch"/sdist/trochoid-*/ -B "$scratch/sdist/build" -DTROCHOID_BUILD_TESTS=OFF \
+  -DTROCHOID_DEVELOPER=OFF -DTROCHOID_PYTHON="$python" >"$scratch/sdist/log" 2>&1 ||
+  { cat "$scratch/sdist/log"; exit 1; }
 echo "installed and by pip: $first"
