@@ -27,6 +27,94 @@ class Named(Values, Generic[T]):
         def __getitem__(self, key: str) -> T: ...
 
 
+class Fit(Values):
+    """one for each entry of `chip_models`, in that order"""
+
+    chip_model: str
+    """of this fit"""
+    lookback: str
+    """of the chip model"""
+    ok: bool
+    """whether there is an answer"""
+    message: str
+    """when not, why"""
+    coefficients: Named[Optional[Estimate]]
+    """each of the law, by its key in `[force]`; `null` with the reason in `identifiable`"""
+    runout: Optional[Runout]
+    """`null` for model none"""
+    phase_deg: Optional[Union[float, tuple[Optional[float], ...]]]
+    """true angle of the tip of tooth 1 less the recorded angle; a list in measurement order, of
+    one measurement the number alone. Equal pitch: the first within half a pitch of 0, further
+    ones within half a turn"""
+    phase_se_deg: Optional[Union[float, tuple[Optional[float], ...]]]
+    """standard errors of the same"""
+    channel_offsets: tuple[tuple[ChannelOffset, ...], ...]
+    """where they were fitted: of each channel, for each measurement (not in every answer)"""
+    rms_N: Optional[float]
+    """sqrt(mean over samples of the squared difference) of the vector (I-5); `null` where the
+    channels are not three forces"""
+    rms_axis_N: Optional[tuple[Optional[float], ...]]
+    """the same of each axis, `null` where that force was not measured"""
+    rms_meaning: str
+    """both in words"""
+    condition: Optional[float]
+    """condition number of [D] with columns of length one"""
+    rank: Optional[int]
+    """of the same"""
+    degrees_of_freedom: Optional[float]
+    """data less unknowns"""
+    band_harmonics: Optional[int]
+    """harmonics of the spindle that were fitted; 0: all"""
+    interval_factor: Optional[float]
+    """half of a 95 % confidence interval over its standard error, for every unknown of the fit:
+    what the terminal and the report print behind ± is this times the standard error"""
+    residual_correlation: Optional[float]
+    """of neighbouring residuals (I-8); 0 with a band limit, where harmonics are counted and not
+    samples"""
+    interval_widening: Optional[float]
+    """by how much the intervals of the coefficients are wider than white noise would make them
+    (rms of them), because residuals agree with their neighbours, repeat turn by turn, or
+    records disagree (I-13 to I-15): `se`, `low` and `high` include it; 1 with `errors =
+    "white"`"""
+    unexplained_in_band: Optional[float]
+    """what the fit does not explain as a fraction of the force (rms, 0 to 1), within its band
+    (I-9)"""
+    unexplained: Optional[float]
+    """the same of everything"""
+    outside_band: Optional[float]
+    """fraction of the force (rms) that lies outside of the band"""
+    resonances: Named[Optional[Resonance]]
+    """of the dynamometer, where its response is in the model: for `x`, `y`, `z` of the tool, or
+    `null` where none was found; of a given response the one that was scaled with the fit (I-17,
+    I-25) (not in every answer)"""
+    identifiable: Named[Union[bool, str]]
+    """for each quantity `true`, or the reason why it cannot be determined"""
+    combination: tuple[Combination, ...]
+    """where coefficients are not told: sums of weights times coefficients that are (not in
+    every answer)"""
+    prior: Named[IdentifyPrior]
+    """what was known beforehand, as in `[prior]` (not in every answer)"""
+    data_alone: Named[Optional[Estimate]]
+    """the coefficients without the prior; `null` where the data do not tell them (not in every
+    answer)"""
+    sensor_deg: float
+    """angle of u from the tip of tooth 1 towards tooth 2 (not in every answer)"""
+    sensor_se_deg: Optional[float]
+    """its standard error; `null` where it was given (not in every answer)"""
+    rank_with_prior: int
+    """rank with the rows of the prior (not in every answer)"""
+    weighted_rss: float
+    """sum of (residual/sd)^2, of the data without the prior (not in every answer)"""
+    variance_factor: float
+    """by which variances are larger than the stated ones: 1 where those are known, else
+    weighted_rss/(data less unknowns) (not in every answer)"""
+    channels: tuple[Channel, ...]
+    """each of them (not in every answer)"""
+    groups: tuple[Group, ...]
+    """where a record names its `group`; the fit's own `coefficients` are for the first group
+    (not in every answer)"""
+
+
 class Estimate(Values):
     """a number that was found, with its 95 % interval"""
 
@@ -38,6 +126,104 @@ class Estimate(Values):
     """of the 95 % confidence interval"""
     high: float
     """of the 95 % confidence interval"""
+
+
+class Runout(Values):
+    """`null` for model none"""
+
+    radial_offsets_mm: tuple[Optional[float], ...]
+    """of each tooth"""
+    radial_offsets_se_mm: tuple[Optional[float], ...]
+    """standard errors; `null` where it is given, the gauge, or found where a tooth just starts
+    or stops cutting (warning `runout_on_edge`)"""
+    eccentricity_mm: Optional[float]
+    """of the tool"""
+    eccentricity_se_mm: Optional[float]
+    """standard error or `null`, as above"""
+    angle_deg: Optional[float]
+    """of the eccentricity, from the tip of tooth 1 towards tooth 2"""
+    angle_se_deg: Optional[float]
+    """standard error or `null`, as above"""
+    axial_offsets_mm: tuple[Optional[float], ...]
+    """of each tooth, positive: it reaches deeper; empty: none (not in every answer)"""
+    axial_offsets_se_mm: tuple[Optional[float], ...]
+    """standard errors or `null`, as above (not in every answer)"""
+    tilt_deg: Optional[float]
+    """of the tool axis (not in every answer)"""
+    tilt_se_deg: Optional[float]
+    """standard error or `null`, as above (not in every answer)"""
+    tilt_angle_deg: Optional[float]
+    """where its top leans to, from the tip of tooth 1 towards tooth 2 (not in every answer)"""
+    tilt_angle_se_deg: Optional[float]
+    """standard error or `null`, as above (not in every answer)"""
+
+
+class ChannelOffset(Values):
+    """where they were fitted: of each channel, for each measurement"""
+
+    constant_N: Optional[float]
+    """at the middle of the record"""
+    slope_N: Optional[float]
+    """from its beginning to its end"""
+
+
+class Resonance(Values):
+    """of each axis"""
+
+    frequency_Hz: float
+    """natural frequency"""
+    frequency_se_Hz: Optional[float]
+    """its standard error; `null` where it was not found with the rest"""
+    damping_ratio: float
+    """of critical damping"""
+    damping_ratio_se: Optional[float]
+    """its standard error, as above"""
+
+
+class Combination(Values):
+    """where coefficients are not told: sums of weights times coefficients that are"""
+
+    weights: Named[float]
+    """by the key of the coefficient; the first is 1"""
+    value: float
+    """of the sum, in the unit of the first coefficient"""
+    se: float
+    """one standard error"""
+
+
+class IdentifyPrior(Values):
+    """of this coefficient"""
+
+    mean: float
+    """in the unit of its key"""
+    sd: float
+    """its standard deviation"""
+
+
+class Channel(Values):
+    """each of them"""
+
+    axis: str
+    """what it reads, as in `[dynamometer] axes`"""
+    unit: str
+    """of `rms` and `sd`: `N`, `Nm` or `W`"""
+    rms: float
+    """residual of the answer"""
+    sd: float
+    """of one value, as it was weighted"""
+
+
+class Group(Values):
+    """of the chosen fit"""
+
+    group: Optional[str]
+    """its name; `null`: records without one"""
+    coefficients: Named[Optional[Estimate]]
+    """as in the fit"""
+    covariance: Optional[Covariance]
+    """as below"""
+    files: tuple[str, ...]
+    """of its records"""
 
 
 class Covariance(Values):
@@ -527,13 +713,13 @@ class IdentifyAnswer(Answer):
     ``chip_curve``: theta_deg, h_tooth*_mm
     """
 
-    fits: tuple[IdentifyFit, ...]
+    fits: tuple[Fit, ...]
     """one for each entry of `chip_models`, in that order"""
     chosen: str
     """the fit in `material.toml`: the trochoidal one if it was asked for, else the best"""
     covariance: Optional[Covariance]
     """of the chosen fit, the first group: what `[sweep] covariance` draws from"""
-    groups: tuple[IdentifyGroup, ...]
+    groups: tuple[Group, ...]
     """of the chosen fit (not in every answer)"""
     signal: IdentifySignal
     """what was found in the records before anything was fitted (not in every answer)"""
@@ -566,192 +752,6 @@ class IdentifyAnswer(Answer):
     if TYPE_CHECKING:
 
         def to_dict(self) -> dicts.Identify: ...  # type: ignore[override]
-
-
-class IdentifyFit(Values):
-    """one for each entry of `chip_models`, in that order"""
-
-    chip_model: str
-    """of this fit"""
-    lookback: str
-    """of the chip model"""
-    ok: bool
-    """whether there is an answer"""
-    message: str
-    """when not, why"""
-    coefficients: Named[Optional[Estimate]]
-    """each of the law, by its key in `[force]`; `null` with the reason in `identifiable`"""
-    runout: Optional[IdentifyRunout]
-    """`null` for model none"""
-    phase_deg: Optional[Union[float, tuple[Optional[float], ...]]]
-    """true angle of the tip of tooth 1 less the recorded angle; a list in measurement order, of
-    one measurement the number alone. Equal pitch: the first within half a pitch of 0, further
-    ones within half a turn"""
-    phase_se_deg: Optional[Union[float, tuple[Optional[float], ...]]]
-    """standard errors of the same"""
-    channel_offsets: tuple[tuple[IdentifyChannelOffset, ...], ...]
-    """where they were fitted: of each channel, for each measurement (not in every answer)"""
-    rms_N: Optional[float]
-    """sqrt(mean over samples of the squared difference) of the vector (I-5); `null` where the
-    channels are not three forces"""
-    rms_axis_N: Optional[tuple[Optional[float], ...]]
-    """the same of each axis, `null` where that force was not measured"""
-    rms_meaning: str
-    """both in words"""
-    condition: Optional[float]
-    """condition number of [D] with columns of length one"""
-    rank: Optional[int]
-    """of the same"""
-    degrees_of_freedom: Optional[float]
-    """data less unknowns"""
-    band_harmonics: Optional[int]
-    """harmonics of the spindle that were fitted; 0: all"""
-    interval_factor: Optional[float]
-    """half of a 95 % confidence interval over its standard error, for every unknown of the fit:
-    what the terminal and the report print behind ± is this times the standard error"""
-    residual_correlation: Optional[float]
-    """of neighbouring residuals (I-8); 0 with a band limit, where harmonics are counted and not
-    samples"""
-    interval_widening: Optional[float]
-    """by how much the intervals of the coefficients are wider than white noise would make them
-    (rms of them), because residuals agree with their neighbours, repeat turn by turn, or
-    records disagree (I-13 to I-15): `se`, `low` and `high` include it; 1 with `errors =
-    "white"`"""
-    unexplained_in_band: Optional[float]
-    """what the fit does not explain as a fraction of the force (rms, 0 to 1), within its band
-    (I-9)"""
-    unexplained: Optional[float]
-    """the same of everything"""
-    outside_band: Optional[float]
-    """fraction of the force (rms) that lies outside of the band"""
-    resonances: Named[Optional[IdentifyResonance]]
-    """of the dynamometer, where its response is in the model: for `x`, `y`, `z` of the tool, or
-    `null` where none was found; of a given response the one that was scaled with the fit (I-17,
-    I-25) (not in every answer)"""
-    identifiable: Named[Union[bool, str]]
-    """for each quantity `true`, or the reason why it cannot be determined"""
-    combination: tuple[IdentifyCombination, ...]
-    """where coefficients are not told: sums of weights times coefficients that are (not in
-    every answer)"""
-    prior: Named[IdentifyPrior]
-    """what was known beforehand, as in `[prior]` (not in every answer)"""
-    data_alone: Named[Optional[Estimate]]
-    """the coefficients without the prior; `null` where the data do not tell them (not in every
-    answer)"""
-    sensor_deg: float
-    """angle of u from the tip of tooth 1 towards tooth 2 (not in every answer)"""
-    sensor_se_deg: Optional[float]
-    """its standard error; `null` where it was given (not in every answer)"""
-    rank_with_prior: int
-    """rank with the rows of the prior (not in every answer)"""
-    weighted_rss: float
-    """sum of (residual/sd)^2, of the data without the prior (not in every answer)"""
-    variance_factor: float
-    """by which variances are larger than the stated ones: 1 where those are known, else
-    weighted_rss/(data less unknowns) (not in every answer)"""
-    channels: tuple[IdentifyChannel, ...]
-    """each of them (not in every answer)"""
-    groups: tuple[IdentifyGroup, ...]
-    """where a record names its `group`; the fit's own `coefficients` are for the first group
-    (not in every answer)"""
-
-
-class IdentifyRunout(Values):
-    """`null` for model none"""
-
-    radial_offsets_mm: tuple[Optional[float], ...]
-    """of each tooth"""
-    radial_offsets_se_mm: tuple[Optional[float], ...]
-    """standard errors; `null` where it is given, the gauge, or found where a tooth just starts
-    or stops cutting (warning `runout_on_edge`)"""
-    eccentricity_mm: Optional[float]
-    """of the tool"""
-    eccentricity_se_mm: Optional[float]
-    """standard error or `null`, as above"""
-    angle_deg: Optional[float]
-    """of the eccentricity, from the tip of tooth 1 towards tooth 2"""
-    angle_se_deg: Optional[float]
-    """standard error or `null`, as above"""
-    axial_offsets_mm: tuple[Optional[float], ...]
-    """of each tooth, positive: it reaches deeper; empty: none (not in every answer)"""
-    axial_offsets_se_mm: tuple[Optional[float], ...]
-    """standard errors or `null`, as above (not in every answer)"""
-    tilt_deg: Optional[float]
-    """of the tool axis (not in every answer)"""
-    tilt_se_deg: Optional[float]
-    """standard error or `null`, as above (not in every answer)"""
-    tilt_angle_deg: Optional[float]
-    """where its top leans to, from the tip of tooth 1 towards tooth 2 (not in every answer)"""
-    tilt_angle_se_deg: Optional[float]
-    """standard error or `null`, as above (not in every answer)"""
-
-
-class IdentifyChannelOffset(Values):
-    """where they were fitted: of each channel, for each measurement"""
-
-    constant_N: Optional[float]
-    """at the middle of the record"""
-    slope_N: Optional[float]
-    """from its beginning to its end"""
-
-
-class IdentifyResonance(Values):
-    """of each axis"""
-
-    frequency_Hz: float
-    """natural frequency"""
-    frequency_se_Hz: Optional[float]
-    """its standard error; `null` where it was not found with the rest"""
-    damping_ratio: float
-    """of critical damping"""
-    damping_ratio_se: Optional[float]
-    """its standard error, as above"""
-
-
-class IdentifyCombination(Values):
-    """where coefficients are not told: sums of weights times coefficients that are"""
-
-    weights: Named[float]
-    """by the key of the coefficient; the first is 1"""
-    value: float
-    """of the sum, in the unit of the first coefficient"""
-    se: float
-    """one standard error"""
-
-
-class IdentifyPrior(Values):
-    """of this coefficient"""
-
-    mean: float
-    """in the unit of its key"""
-    sd: float
-    """its standard deviation"""
-
-
-class IdentifyChannel(Values):
-    """each of them"""
-
-    axis: str
-    """what it reads, as in `[dynamometer] axes`"""
-    unit: str
-    """of `rms` and `sd`: `N`, `Nm` or `W`"""
-    rms: float
-    """residual of the answer"""
-    sd: float
-    """of one value, as it was weighted"""
-
-
-class IdentifyGroup(Values):
-    """of the chosen fit"""
-
-    group: Optional[str]
-    """its name; `null`: records without one"""
-    coefficients: Named[Optional[Estimate]]
-    """as in the fit"""
-    covariance: Optional[Covariance]
-    """as below"""
-    files: tuple[str, ...]
-    """of its records"""
 
 
 class IdentifySignal(Values):
@@ -2143,7 +2143,8 @@ class ProgramAnswer(Answer):
       wall_right_least_um, wall_right_most_um
     ``arcs``: step, from_mm, to_mm, from_deg, to_deg
     ``measured_steps``: step, line, time_s, record_time_s, Fx_mean_N, Fy_mean_N, Fz_mean_N,
-      peak_xy_N, computed_Fx_mean_N, computed_Fy_mean_N, computed_Fz_mean_N, computed_peak_xy_N
+      peak_xy_N, computed_Fx_mean_N, computed_Fy_mean_N, computed_Fz_mean_N, computed_peak_xy_N,
+      power_W, computed_power_W, torque_Nm, computed_torque_Nm
     ``feeds``: line, from_mm, to_mm, steps, programmed_feed_mm_per_min, feed_mm_per_min,
       held_by, reachable, rubs
     ``places``: place, line, fraction, tool, time_s, x_mm, y_mm, z_mm, feed_direction_deg,
@@ -2366,22 +2367,32 @@ class ProgramRecord(Values):
     """of parts of the program about that, rms"""
     correlation: float
     """of measured and computed mean forces; 1: alike but for a factor"""
+    reads: str
+    """`forces`, `power` or `torque`"""
     steps: int
     """in cut that the record has"""
     mean_ratio: float
-    """measured over computed mean force, median of these steps"""
+    """measured over computed mean, median of these steps"""
     peak_ratio: float
-    """the same of the largest force across the axis"""
+    """the same of the largest force across the axis (not in every answer)"""
     fitted_steps: int
     """steady ones, from which the coefficients are found; 0: too few"""
     rms_N: float
     """of the mean forces that the coefficients found leave (not in every answer)"""
+    rms_W: float
+    """the same of a record of power (not in every answer)"""
+    rms_Nm: float
+    """the same of a record of torque (not in every answer)"""
     coefficients: tuple[ProgramCoefficient, ...]
-    """from the mean forces of the steps"""
+    """from the means of the steps"""
+    cuts: tuple[ProgramCut, ...]
+    """steady cuts whose forces tell the runout; none: too few samples (not in every answer)"""
+    fit: Fit
+    """of the forces in these cuts, as an entry of `fits` of `identify` (not in every answer)"""
 
 
 class ProgramCoefficient(Values):
-    """from the mean forces of the steps"""
+    """from the means of the steps"""
 
     key: str
     """of [force]"""
@@ -2395,6 +2406,19 @@ class ProgramCoefficient(Values):
     """of the 95 % confidence interval (not in every answer)"""
     high: float
     """the same (not in every answer)"""
+
+
+class ProgramCut(Values):
+    """steady cuts whose forces tell the runout; none: too few samples"""
+
+    line: int
+    """of the text"""
+    turns: float
+    """of the spindle"""
+    spindle_rpm: float
+    """as found in the record"""
+    feed_per_tooth_mm: float
+    """that the machine made"""
 
 
 class PlanOfFinishAnswer(Answer):

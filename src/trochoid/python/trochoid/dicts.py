@@ -16,11 +16,100 @@ elif TYPE_CHECKING:
     from typing_extensions import NotRequired
 
 
+class Fit(TypedDict):
+    chip_model: str
+    lookback: str
+    ok: bool
+    message: str
+    coefficients: dict[str, Optional[Estimate]]
+    runout: Optional[Runout]
+    phase_deg: Optional[Union[float, list[Optional[float]]]]
+    phase_se_deg: Optional[Union[float, list[Optional[float]]]]
+    channel_offsets: NotRequired[list[list[ChannelOffset]]]
+    rms_N: Optional[float]
+    rms_axis_N: Optional[list[Optional[float]]]
+    rms_meaning: str
+    condition: Optional[float]
+    rank: Optional[int]
+    degrees_of_freedom: Optional[float]
+    band_harmonics: Optional[int]
+    interval_factor: Optional[float]
+    residual_correlation: Optional[float]
+    interval_widening: Optional[float]
+    unexplained_in_band: Optional[float]
+    unexplained: Optional[float]
+    outside_band: Optional[float]
+    resonances: NotRequired[dict[str, Optional[Resonance]]]
+    identifiable: dict[str, Union[bool, str]]
+    combination: NotRequired[list[Combination]]
+    prior: NotRequired[dict[str, IdentifyPrior]]
+    data_alone: NotRequired[dict[str, Optional[Estimate]]]
+    sensor_deg: NotRequired[float]
+    sensor_se_deg: NotRequired[Optional[float]]
+    rank_with_prior: NotRequired[int]
+    weighted_rss: NotRequired[float]
+    variance_factor: NotRequired[float]
+    channels: NotRequired[list[Channel]]
+    groups: NotRequired[list[Group]]
+
+
 class Estimate(TypedDict):
     value: float
     se: float
     low: float
     high: float
+
+
+class Runout(TypedDict):
+    radial_offsets_mm: list[Optional[float]]
+    radial_offsets_se_mm: list[Optional[float]]
+    eccentricity_mm: Optional[float]
+    eccentricity_se_mm: Optional[float]
+    angle_deg: Optional[float]
+    angle_se_deg: Optional[float]
+    axial_offsets_mm: NotRequired[list[Optional[float]]]
+    axial_offsets_se_mm: NotRequired[list[Optional[float]]]
+    tilt_deg: NotRequired[Optional[float]]
+    tilt_se_deg: NotRequired[Optional[float]]
+    tilt_angle_deg: NotRequired[Optional[float]]
+    tilt_angle_se_deg: NotRequired[Optional[float]]
+
+
+class ChannelOffset(TypedDict):
+    constant_N: Optional[float]
+    slope_N: Optional[float]
+
+
+class Resonance(TypedDict):
+    frequency_Hz: float
+    frequency_se_Hz: Optional[float]
+    damping_ratio: float
+    damping_ratio_se: Optional[float]
+
+
+class Combination(TypedDict):
+    weights: dict[str, float]
+    value: float
+    se: float
+
+
+class IdentifyPrior(TypedDict):
+    mean: float
+    sd: float
+
+
+class Channel(TypedDict):
+    axis: str
+    unit: str
+    rms: float
+    sd: float
+
+
+class Group(TypedDict):
+    group: Optional[str]
+    coefficients: dict[str, Optional[Estimate]]
+    covariance: Optional[Covariance]
+    files: list[str]
 
 
 class Covariance(TypedDict):
@@ -241,10 +330,10 @@ class DynamicsProcessDamping(TypedDict):
 
 
 class Identify(TypedDict):
-    fits: list[IdentifyFit]
+    fits: list[Fit]
     chosen: str
     covariance: Optional[Covariance]
-    groups: NotRequired[list[IdentifyGroup]]
+    groups: NotRequired[list[Group]]
     signal: NotRequired[IdentifySignal]
     clocking: NotRequired[IdentifyClocking]
     runout_form: NotRequired[IdentifyRunoutForm]
@@ -254,95 +343,6 @@ class Identify(TypedDict):
     verdict: str
     with_care: list[str]
     do_not_use: list[str]
-
-
-class IdentifyFit(TypedDict):
-    chip_model: str
-    lookback: str
-    ok: bool
-    message: str
-    coefficients: dict[str, Optional[Estimate]]
-    runout: Optional[IdentifyRunout]
-    phase_deg: Optional[Union[float, list[Optional[float]]]]
-    phase_se_deg: Optional[Union[float, list[Optional[float]]]]
-    channel_offsets: NotRequired[list[list[IdentifyChannelOffset]]]
-    rms_N: Optional[float]
-    rms_axis_N: Optional[list[Optional[float]]]
-    rms_meaning: str
-    condition: Optional[float]
-    rank: Optional[int]
-    degrees_of_freedom: Optional[float]
-    band_harmonics: Optional[int]
-    interval_factor: Optional[float]
-    residual_correlation: Optional[float]
-    interval_widening: Optional[float]
-    unexplained_in_band: Optional[float]
-    unexplained: Optional[float]
-    outside_band: Optional[float]
-    resonances: NotRequired[dict[str, Optional[IdentifyResonance]]]
-    identifiable: dict[str, Union[bool, str]]
-    combination: NotRequired[list[IdentifyCombination]]
-    prior: NotRequired[dict[str, IdentifyPrior]]
-    data_alone: NotRequired[dict[str, Optional[Estimate]]]
-    sensor_deg: NotRequired[float]
-    sensor_se_deg: NotRequired[Optional[float]]
-    rank_with_prior: NotRequired[int]
-    weighted_rss: NotRequired[float]
-    variance_factor: NotRequired[float]
-    channels: NotRequired[list[IdentifyChannel]]
-    groups: NotRequired[list[IdentifyGroup]]
-
-
-class IdentifyRunout(TypedDict):
-    radial_offsets_mm: list[Optional[float]]
-    radial_offsets_se_mm: list[Optional[float]]
-    eccentricity_mm: Optional[float]
-    eccentricity_se_mm: Optional[float]
-    angle_deg: Optional[float]
-    angle_se_deg: Optional[float]
-    axial_offsets_mm: NotRequired[list[Optional[float]]]
-    axial_offsets_se_mm: NotRequired[list[Optional[float]]]
-    tilt_deg: NotRequired[Optional[float]]
-    tilt_se_deg: NotRequired[Optional[float]]
-    tilt_angle_deg: NotRequired[Optional[float]]
-    tilt_angle_se_deg: NotRequired[Optional[float]]
-
-
-class IdentifyChannelOffset(TypedDict):
-    constant_N: Optional[float]
-    slope_N: Optional[float]
-
-
-class IdentifyResonance(TypedDict):
-    frequency_Hz: float
-    frequency_se_Hz: Optional[float]
-    damping_ratio: float
-    damping_ratio_se: Optional[float]
-
-
-class IdentifyCombination(TypedDict):
-    weights: dict[str, float]
-    value: float
-    se: float
-
-
-class IdentifyPrior(TypedDict):
-    mean: float
-    sd: float
-
-
-class IdentifyChannel(TypedDict):
-    axis: str
-    unit: str
-    rms: float
-    sd: float
-
-
-class IdentifyGroup(TypedDict):
-    group: Optional[str]
-    coefficients: dict[str, Optional[Estimate]]
-    covariance: Optional[Covariance]
-    files: list[str]
 
 
 class IdentifySignal(TypedDict):
@@ -1124,12 +1124,17 @@ class ProgramRecord(TypedDict):
     stretch: float
     scatter_s: float
     correlation: float
+    reads: str
     steps: int
     mean_ratio: float
-    peak_ratio: float
+    peak_ratio: NotRequired[float]
     fitted_steps: int
     rms_N: NotRequired[float]
+    rms_W: NotRequired[float]
+    rms_Nm: NotRequired[float]
     coefficients: list[ProgramCoefficient]
+    cuts: NotRequired[list[ProgramCut]]
+    fit: NotRequired[Fit]
 
 
 class ProgramCoefficient(TypedDict):
@@ -1139,6 +1144,13 @@ class ProgramCoefficient(TypedDict):
     se: NotRequired[float]
     low: NotRequired[float]
     high: NotRequired[float]
+
+
+class ProgramCut(TypedDict):
+    line: int
+    turns: float
+    spindle_rpm: float
+    feed_per_tooth_mm: float
 
 
 class PlanOfFinish(TypedDict):
