@@ -331,6 +331,14 @@ std::optional<Alignment> align(std::span<const Step> steps, const Recorded& reco
   return out;
 }
 
+double LaidOver::stretch(std::size_t from, std::size_t to) const noexcept {
+  const std::vector<double>& clock = record.clock;
+  const std::size_t last = std::min(to, clock.empty() ? to : clock.size() - 1);
+  if (clock.empty() || last <= from) return alignment.stretch;
+  return alignment.stretch * (clock[last] - clock[from]) /
+         (record.time[last] - record.time[from]);
+}
+
 double sample_time(const Recorded& record) noexcept {
   const auto n = static_cast<double>(record.time.size());
   return n > 1 ? (record.time.back() - record.time.front()) / (n - 1) : 0.0;
@@ -374,6 +382,7 @@ RecordedSteps over_steps(std::span<const Step> steps, const LaidOver& over) {
     const auto [a, b] = means.within(from, to);
     one.there = b > a && from >= record.time.front() && to <= record.time.back();
     if (!one.there) continue;
+    one.stretch = over.stretch(a, b);
     for (std::size_t i = a; i < b; ++i) {
       Vector F = record.value[i];
       for (std::size_t c = 0; c < 3; ++c) {

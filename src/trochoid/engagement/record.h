@@ -66,6 +66,10 @@ std::optional<Alignment> align(std::span<const Step> steps, const Recorded& reco
 struct LaidOver {
   Recorded record;
   Alignment alignment;
+
+  /// @brief How many seconds of the record a second of the program took.
+  /// @param from, to  samples, `to` behind the last
+  [[nodiscard]] double stretch(std::size_t from, std::size_t to) const noexcept;
 };
 
 /// Time from sample to sample, on the average [s].
@@ -77,6 +81,7 @@ std::array<double, 3> mean_of(const Step& step, Reads reads) noexcept;
 /// What was recorded in a step.
 struct StepRecord {
   bool there = false;            ///< false: the record does not have it
+  double stretch = 1.0;          ///< seconds of the record for a second of the program
   std::array<double, 3> mean{};  ///< as Recorded::value
   double peak_xy = 0.0;          ///< of forces [N]
 };

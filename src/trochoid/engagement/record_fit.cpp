@@ -20,14 +20,19 @@ constexpr std::size_t most_fitted = 2000;
 constexpr std::size_t fitted_each = 6;
 constexpr std::size_t most_blocks = 30;
 /// A step is steady if its neighbours have the same means but for this part.
-constexpr double steady = 0.15;
+constexpr double steady = 0.02;
 /// Slow channels lag behind and show means: so many samples about a step are of the same cut.
 constexpr double settled = 6.0;
 constexpr double rank_tolerance = 3e-3;
 
-/// Means over a turn for a unit of each coefficient, as Recorded::value.
-std::vector<Vector> unit_means(const Found& found, const Tool& tool, Reads reads) {
+/// Means over a turn for a unit of each coefficient, as Recorded::value, at the feed that the
+/// machine made.
+std::vector<Vector> unit_means(const Found& found, const Tool& tool, double stretch,
+                               Reads reads) {
   const std::size_t n = force::coefficients(tool.law).size();
+  Turn turn = found.turn;
+  turn.f_z /= stretch;
+  turn.fall /= stretch;
   std::vector<Vector> out;
   for (std::size_t k = 0; k < n; ++k) {
     std::vector<double> unit(n);
@@ -37,7 +42,7 @@ std::vector<Vector> unit_means(const Found& found, const Tool& tool, Reads reads
     one.body.reset();
     one.gauge_length = 0.0;
     Step step = found.step;
-    step.forces = in_program(loads_of(found.turn, one), step.direction, step.spindle);
+    step.forces = in_program(loads_of(turn, one), step.direction, step.spindle);
     out.push_back(mean_of(step, reads));
   }
   return out;
@@ -205,7 +210,11 @@ std::optional<MeanFit> fit_means(const Job& job, std::span<const Step> steps,
   const std::vector<Found> found = looked_at(job, steps, places);
   std::vector<std::vector<Vector>> unit(found.size());
   numerics::for_each_index(
-      found.size(), [&](std::size_t i) { unit[i] = unit_means(found[i], own, reads); },
+      found.size(),
+      [&](std::size_t i) {
+        const double stretch = recorded.steps[places[i]].stretch;
+        unit[i] = unit_means(found[i], own, stretch, reads);
+      },
       4);
   const std::size_t blocks = std::min(most_blocks, places.size() / 3);
   const MeanRows rows{unit, places, recorded, reads == Reads::forces ? 3U : 1U};

@@ -134,7 +134,7 @@ Samples samples_of(const LaidOver& over, const Idle& idle, const Step& first,
   const std::array<double, 3> offset = idle.at(first.spindle);
   const double c = std::cos(first.direction);
   const double s = std::sin(first.direction);
-  Samples out{.record = {}, .stretch = at.stretch};
+  Samples out{.record = {}, .stretch = over.stretch(from, to)};
   for (std::size_t i = from; i < to; ++i) {
     std::array<double, 3> F = over.record.value[i];
     for (std::size_t q = 0; q < 3; ++q) F[q] -= offset[q];
@@ -142,9 +142,6 @@ Samples samples_of(const LaidOver& over, const Idle& idle, const Step& first,
     out.record.channel[0].push_back(c * F[0] + s * F[1]);
     out.record.channel[1].push_back(c * F[1] - s * F[0]);
     out.record.channel[2].push_back(F[2]);
-  }
-  if (to > from + 1) {
-    out.stretch *= (clock[to - 1] - clock[from]) / (time[to - 1] - time[from]);
   }
   return out;
 }

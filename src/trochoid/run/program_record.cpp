@@ -22,6 +22,9 @@ namespace {
 constexpr double least_correlation = 0.5;
 /// A clock that differs more is said.
 constexpr double same_clock = 0.005;
+/// Feeds and coefficients that differ more from the case are said.
+constexpr double same_feed = 0.03;
+constexpr double same_coefficient = 0.01;
 
 /// What the channels read: three forces, or one that is power or torque.
 engagement::Reads reads_of(const cases::Case& given) {
@@ -217,6 +220,71 @@ void warn_of_runout(const results::ProgramRecord& record, const engagement::Tool
            fmt::join(in_um(stated), ", "))});
 }
 
+/// What the record tells best: the forces over the angle count the runout, too.
+std::vector<results::RecordCoefficient> best_coefficients(
+    const results::ProgramRecord& record) {
+  std::vector<results::RecordCoefficient> out = record.coefficients;
+  if (!record.fit || !record.fit->ok) return out;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const auto& one = record.fit->coefficients[k];
+    out[k].se.reset();
+    if (!one) continue;
+    out[k].found = one->value;
+    out[k].se = one->se;
+  }
+  return out;
+}
+
+void warn_of_coefficients(const results::ProgramRecord& record,
+                          std::vector<base::Warning>& warnings) {
+  const bool fitted = record.fit && record.fit->ok;
+  const double factor = fitted ? record.fit->interval_factor : record.factor;
+  std::vector<std::string> other;
+  for (const results::RecordCoefficient& one : best_coefficients(record)) {
+    const double off = std::abs(one.found - one.stated);
+    if (!one.se || off <= factor * *one.se ||
+        off <= same_coefficient * std::abs(one.stated)) {
+      continue;
+    }
+    other.push_back(fmt::format("{} ({:.4g} stated, {:.4g} +- {:.2g} found)", one.key,
+                                one.stated / one.unit, one.found / one.unit,
+                                factor * *one.se / one.unit));
+  }
+  if (other.empty()) return;
+  warnings.push_back(
+      {"other_coefficients",
+       fmt::format("{}: its {} tell other coefficients than the case: {}.", record.file,
+                   fitted ? "forces" : "means", fmt::join(other, ", "))});
+}
+
+/// Lines that took longer or shorter than in the program, where the record has lines.
+void warn_of_feeds(std::span<const engagement::Step> steps,
+                   const results::ProgramRecord& record,
+                   std::vector<base::Warning>& warnings) {
+  if (!record.numbers) return;
+  std::vector<std::string> lines;
+  std::uint32_t last = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const engagement::StepRecord& one = record.recorded.steps[i];
+    if (!one.there || steps[i].line == last || std::abs(one.stretch - 1) <= same_feed) {
+      continue;
+    }
+    last = steps[i].line;
+    lines.push_back(fmt::format("line {} ({:.3g} times as long)", last, one.stretch));
+  }
+  if (lines.empty()) return;
+  constexpr std::size_t most = 5;
+  const std::size_t more = lines.size() - std::min(lines.size(), most);
+  lines.resize(std::min(lines.size(), most));
+  warnings.push_back(
+      {"feed_override",
+       fmt::format("{}: the machine did not keep the feeds of the program: {}{}. The "
+                   "computed forces are those of the programmed feeds; coefficients "
+                   "are found with the feeds that ran.",
+                   record.file, fmt::join(lines, ", "),
+                   more > 0 ? fmt::format(" and {} more", more) : std::string())});
+}
+
 void warn_of_record(const results::ProgramRecord& record,
                     std::vector<base::Warning>& warnings) {
   if (std::abs(record.alignment.stretch - 1) > same_clock) {
@@ -226,20 +294,7 @@ void warn_of_record(const results::ProgramRecord& record,
                      "override, or accelerations that [machine] does not have.",
                      record.file, record.alignment.stretch)});
   }
-  std::vector<std::string> other;
-  for (const results::RecordCoefficient& one : record.coefficients) {
-    if (!one.se || std::abs(one.found - one.stated) <= record.factor * *one.se)
-      continue;
-    other.push_back(fmt::format("{} ({:.4g} stated, {:.4g} +- {:.2g} found)", one.key,
-                                one.stated / one.unit, one.found / one.unit,
-                                record.factor * *one.se / one.unit));
-  }
-  if (!other.empty()) {
-    warnings.push_back(
-        {"other_coefficients",
-         fmt::format("{}: its means tell other coefficients than the case: {}.",
-                     record.file, fmt::join(other, ", "))});
-  }
+  warn_of_coefficients(record, warnings);
   if (!record.recorded.idle.found) {
     warnings.push_back(
         {"no_air", fmt::format("{}: the program has too little air to tell what the "
@@ -283,6 +338,7 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
     warn_of_runout(out, cuts.tool(), warnings);
   }
   warn_of_record(out, warnings);
+  warn_of_feeds(steps, out, warnings);
   return out;
 }
 

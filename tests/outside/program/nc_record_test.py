@@ -17,6 +17,10 @@ TRUE = {"law": "linear_edge", "K_tc_MPa": 2620, "K_rc_MPa": 1560, "K_ac_MPa": 33
 PASSES = [(0.0, 1, (0.0, 180.0), 320),
           (6.0, -1, (60.0, 180.0), 480),
           (8.0, 1, (0.0, 60.0), 800)]
+#: Stock that goes on before and behind: its wall is straight, where a short tooth ends earlier.
+WHOLE = {((0.0, 180.0),): {"engagement": "slot"},
+         ((60.0, 180.0),): {"engagement": "down", "radial_depth_mm": 6.0},
+         ((0.0, 60.0),): {"engagement": "up", "radial_depth_mm": 2.0}}
 TURNS = {}
 TORQUES = {}
 FIRST, LAST = -8.0, 22.0
@@ -66,13 +70,14 @@ class Record(InFolder):
         with open(self.folder / "out" / file, newline="") as stream:
             return list(csv.DictReader(stream))
 
-    def turn(self, side, way, feed, x, angles=120):
+    def turn(self, side, way, feed, x, angles=360):
         """Forces over a turn, feed along +x, with the tool at x of the block, at even angles."""
         arcs = arcs_at(side, way, x)
         key = (side, way, feed, tuple(map(tuple, arcs)))
         if key not in TURNS:
+            stock = WHOLE.get(tuple(map(tuple, arcs)), {"engagement": "arcs", "arcs_deg": arcs})
             self.write("turn.toml", program.case_text("a turn", tables(
-                cut={"engagement": "arcs", "arcs_deg": arcs, "axial_depth_mm": 2.0,
+                cut={**stock, "axial_depth_mm": 2.0,
                      "feed_per_tooth_mm": feed / RPM / 2, "spindle_rpm": RPM},
                 sampling={"angles_deg": [360 / angles * i for i in range(angles)]})))
             self.run_program("simulate", "turn.toml", "-o", "turn", "-q", "--no-report")
@@ -102,9 +107,10 @@ class Record(InFolder):
         for i in range(int((time + 0.5) * RATE)):
             t = i / RATE
             F = [0.0, 0.0, 0.0]
-            for (a, b, _), (_, way, side, feed) in zip(fed, PASSES):
+            for (a, b, _), (_, way, side, feed), slower in zip(fed, PASSES, overrides or [1.0] * 3):
                 if not a <= t < b:
                     continue
+                feed = feed / slower / stretch
                 x = FIRST + (LAST - FIRST) * ((t - a) / (b - a) if way > 0 else (b - t) / (b - a))
                 if arcs_at(side, way, x):
                     one = self.turn(side, way, feed, x)
@@ -163,11 +169,11 @@ class Record(InFolder):
         self.make_record(overrides=[1.3, 0.8, 1.6])
         by_time, _ = self.answer(self.case(**self.AXES))
         by_lines, warnings = self.answer(self.case(**self.AXES), line_column="N_line")
-        self.assertLess(by_time.get("record", {"correlation": 0})["correlation"], 0.97)
+        self.assertLess(by_time.get("record", {"correlation": 0})["correlation"], 0.95)
         record = by_lines["record"]
         self.assertEqual(record["numbers"], "line")
-        self.assertGreater(record["correlation"], 0.985)
-        self.assertAlmostEqual(record["mean_ratio"], 1, delta=0.01)
+        self.assertGreater(record["correlation"], 0.95)
+        self.assertIn("line 6 (1.3 times as long)", warnings["feed_override"])
         self.assertNotIn("other_coefficients", warnings)
         numbered = "\n".join(f"N{10 * i + 5} {line}" for i, line in enumerate(LINES)) + "\n"
         rows = (self.folder / "record.csv").read_text().splitlines()
@@ -177,7 +183,7 @@ class Record(InFolder):
         self.write("part.nc", numbered)
         by_blocks, _ = self.answer(given, line_column="N_line")
         self.assertEqual(by_blocks["record"]["numbers"], "block")
-        self.assertGreater(by_blocks["record"]["correlation"], 0.985)
+        self.assertGreater(by_blocks["record"]["correlation"], 0.95)
         self.assertIn("no column", self.answer(self.case(**self.AXES), code=2, line_column="lines"))
 
     def test_the_runout_from_steady_cuts(self):  # [N-26]
@@ -217,13 +223,13 @@ class Record(InFolder):
                                    delta=0.01 * programmed)
 
     def test_the_power_of_the_spindle(self):
-        """Ten readings a second of a spindle that takes 310 W in air tell K_tc and K_te."""
+        """Fifty readings a second of a spindle that takes 310 W in air tell K_tc and K_te."""
         self.make_record()
         ends = self.ends
         lines = ["time_s,P_W"]
         chance = random.Random(3)
-        for i in range(int((ends[-1][1] + 0.5) * 10)):
-            t, power = i / 10, 310 + chance.gauss(0, 1)
+        for i in range(int((ends[-1][1] + 0.5) * 50)):
+            t, power = i / 50, 310 + chance.gauss(0, 1)
             for (a, b, _), (_, way, side, feed) in zip(
                     [end for end in ends if end[2]["kind"] == "line"], PASSES):
                 x = FIRST + (LAST - FIRST) * ((t - a) / (b - a) if way > 0 else (b - t) / (b - a))

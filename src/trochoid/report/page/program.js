@@ -238,7 +238,7 @@ function recordSection(report, record) {
     rows.length ? table(['coefficient', 'stated', 'found', 'interval'], rows) : null,
     record.fit?.ok ? fitOfCuts(record) : null);
   const panel = (label, name, unit) => ({ label, unit, height: 180, series: [
-    { name: 'measured', values: columnNamed(t, name), color: seriesColor(1) },
+    { name: 'measured', values: columnNamed(t, name), color: seriesColor(1), points: forces ? 0 : 4 },
     { name: 'computed', values: columnNamed(t, `computed_${name}`), color: seriesColor(0) }] });
   const panels = { power: [panel('power', 'power_W', 'W')], torque: [panel('torque', 'torque_Nm', 'N m')],
     forces: [panel('largest force across', 'peak_xy_N', 'N'), panel('mean force in x', 'Fx_mean_N', 'N'),
@@ -262,7 +262,7 @@ function fitOfCuts(record) {
   }
   const lines = [...new Set(record.cuts.map((cut) => cut.line))].join(', ');
   return el('div', {}, prose(`Coefficients and runout from the force over the angle in ${record.cuts.length} steady cuts (lines ${lines}). ` +
-    `${fixed(100 * fit.unexplained.all, 2)} % of the force is not explained. `, el('code', {}, 'material.toml'),
+    `${fixed(100 * fit.unexplained, 2)} % of the force is not explained. `, el('code', {}, 'material.toml'),
   ' has these numbers: include it in the next case.'), table(['', 'found', 'interval'], rows));
 }
 
