@@ -1,5 +1,6 @@
 # ./run packages: a Debian package and an archive for other systems with Linux, by CPack;
-# ./run windows: one for Windows. Which parts go into which is said in PackageKind.cmake.
+# ./run windows: an archive and an installer for Windows. PackageKind.cmake says which parts go
+# into which.
 set(CPACK_PACKAGE_NAME trochoid)
 set(CPACK_PACKAGE_VENDOR "The Trochoid authors")
 set(CPACK_PACKAGE_CONTACT "The Trochoid authors")
@@ -15,6 +16,17 @@ if(WIN32)
   set(TROCHOID_DROP_FILES ${PROJECT_BINARY_DIR}/drop_files)
   include(${CMAKE_CURRENT_LIST_DIR}/windows/DropFiles.cmake)
   install(DIRECTORY ${TROCHOID_DROP_FILES}/ DESTINATION . COMPONENT windows EXCLUDE_FROM_ALL)
+
+  # The installer has the same files, and is made of a template of ours.
+  set(CPACK_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR}/windows)
+  set(CPACK_NSIS_PACKAGE_NAME "Trochoid ${PROJECT_VERSION}")
+  set(CPACK_NSIS_DISPLAY_NAME Trochoid)
+  set(CPACK_NSIS_INSTALL_ROOT "$LOCALAPPDATA\\Programs")
+  set(CPACK_PACKAGE_INSTALL_DIRECTORY Trochoid)
+  set(CPACK_NSIS_COMPRESSOR "/SOLID lzma")
+  set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+  install(FILES /usr/share/doc/nsis-common/copyright RENAME nsis DESTINATION licences
+    COMPONENT installer EXCLUDE_FROM_ALL OPTIONAL)
 endif()
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)

@@ -32,7 +32,7 @@ site_libraries=(python3-sphinx furo python3-myst-parser python3-breathe doxygen 
 # Of the page that runs in a browser (./run web).
 web_programs=(emcc=emscripten)
 # Of the program for Windows (./run windows), and what runs it in the tests.
-windows_programs=(x86_64-w64-mingw32-g++-posix=g++-mingw-w64-x86-64-posix wine=wine)
+windows_programs=(x86_64-w64-mingw32-g++-posix=g++-mingw-w64-x86-64-posix wine=wine makensis=nsis)
 windows_libraries=(libz-mingw-w64-dev wine64)
 # Of the functions for MATLAB (./test --octave).
 octave_programs=(octave-cli=octave)
@@ -264,7 +264,7 @@ compile_windows() {
 # pack FOLDER_OF_BUILD KIND...: packages of these kinds (of CPack), instead of older ones.
 pack() {
   local from=$1 kind packages=$root/build/packages
-  local -A ending=([DEB]=deb [TXZ]=tar.xz [ZIP]=zip)
+  local -A ending=([DEB]=deb [TXZ]=tar.xz [ZIP]=zip [NSIS]=exe)
   shift
   mkdir -p "$packages"
   for kind in "$@"; do
