@@ -279,7 +279,7 @@ void warn_of_feeds(std::span<const engagement::Step> steps,
   warnings.push_back(
       {"feed_override",
        fmt::format("{}: the machine did not keep the feeds of the program: {}{}. The "
-                   "computed forces are those of the programmed feeds; coefficients "
+                   "computed forces belong to the programmed feeds. Coefficients "
                    "are found with the feeds that ran.",
                    record.file, fmt::join(lines, ", "),
                    more > 0 ? fmt::format(" and {} more", more) : std::string())});
