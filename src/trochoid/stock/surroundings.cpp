@@ -22,30 +22,43 @@ Surroundings::Surroundings(const Swept& swept, const Place& place, double reach)
       reach_(reach),
       cosine_(std::cos(place.direction)),
       sine_(std::sin(place.direction)) {
-  for (const std::uint32_t i :
-       swept.near(place.tip[0], place.tip[1], place.turns, reach)) {
-    const Piece& piece = swept.path().pieces[i];
-    if (i > place.last || piece.turns_from > place.turns) {
-      break;
-    }
-    const double dx = piece.from[0] - place.tip[0];
-    const double dy = piece.from[1] - place.tip[1];
-    const double farthest = swept.wall(piece.tool).largest() + reach + piece.length;
-    if (dx * dx + dy * dy >= farthest * farthest) continue;
-    if (i == place.last && place.without_last) {
-      continue;
-    }
-    const double span = piece.turns_to - piece.turns_from;
-    const double until =
-        span > 0 ? std::min((place.turns - piece.turns_from) / span, 1.0) : 1.0;
-    const Wall& wall = swept.wall(piece.tool);
-    const bool helix = piece.arc() && piece.from[2] != piece.to[2];
-    if (helix && !wall.is_upright()) {
-      add_chords(piece, wall, until);
-    } else {
-      add_near(piece, wall, until);
-    }
+  const Nearby nearby = swept.near(place, reach);
+  for (const std::uint32_t i : nearby.pieces) {
+    if (i > place.last || swept.path().pieces[i].turns_from > place.turns) break;
+    if (i != place.last || !place.without_last) add_piece(i);
   }
+  for (const std::uint32_t k : nearby.chains) add_chain(k);
+}
+
+void Surroundings::add_piece(std::uint32_t index) {
+  const Piece& piece = swept_.path().pieces[index];
+  const double dx = piece.from[0] - place_.tip[0];
+  const double dy = piece.from[1] - place_.tip[1];
+  const double farthest = swept_.wall(piece.tool).largest() + reach_ + piece.length;
+  if (dx * dx + dy * dy >= farthest * farthest) return;
+  const double span = piece.turns_to - piece.turns_from;
+  const double until =
+      span > 0 ? std::min((place_.turns - piece.turns_from) / span, 1.0) : 1.0;
+  const Wall& wall = swept_.wall(piece.tool);
+  const bool helix = piece.arc() && piece.from[2] != piece.to[2];
+  if (helix && !wall.is_upright()) {
+    add_chords(piece, wall, until);
+  } else if (const auto near = near_of(piece, wall, until)) {
+    near_.push_back(*near);
+  }
+}
+
+void Surroundings::add_chain(std::uint32_t index) {
+  const Chain& chain = swept_.chains()[index];
+  const double dx = chain.middle[0] - place_.tip[0];
+  const double dy = chain.middle[1] - place_.tip[1];
+  const double farthest = chain.radius + chain.spread + reach_;
+  if (dx * dx + dy * dy >= farthest * farthest) return;
+  chains_.push_back({.place = index,
+                     .middle = local(chain.middle[0], chain.middle[1]),
+                     .spread = chain.spread,
+                     .R = chain.radius,
+                     .tip = chain.z - place_.tip[2]});
 }
 
 SlicePoint Surroundings::local(double x, double y) const noexcept {
@@ -70,7 +83,9 @@ bool Surroundings::is_far(const Near& near) const noexcept {
   return x * x + y * y >= touch * touch;
 }
 
-void Surroundings::add_near(const Piece& piece, const Wall& wall, double until) {
+std::optional<Surroundings::Near> Surroundings::near_of(const Piece& piece,
+                                                        const Wall& wall,
+                                                        double until) const {
   Near near{.wall = &wall,
             .radius = piece.radius,
             .turn = piece.turn,
@@ -84,7 +99,8 @@ void Surroundings::add_near(const Piece& piece, const Wall& wall, double until) 
     near.from = local(piece.from[0], piece.from[1]);
     near.to = local(piece.to[0], piece.to[1]);
   }
-  if (!is_far(near)) near_.push_back(near);
+  if (is_far(near)) return std::nullopt;
+  return near;
 }
 
 void Surroundings::add_chords(const Piece& piece, const Wall& wall, double until) {
@@ -120,6 +136,7 @@ std::vector<double> Surroundings::heights(std::array<int, 2> sublayers) const {
   const auto add = [&](double z) {
     if (z > from && z < to) ends.push_back(z);
   };
+  for (const NearChain& chain : chains_) add(chain.tip);
   for (const Near& near : near_) {
     const auto [low, high] = near.tips();
     if (!near.wall->is_upright()) {
@@ -165,6 +182,7 @@ std::vector<double> Surroundings::levels() const {
   const Heights all = stock::heights(swept_.initial());
   const double tip = place_.tip[2];
   std::vector<double> out{all.bottom - tip, all.top - tip};
+  for (const NearChain& chain : chains_) out.push_back(chain.tip);
   for (const Near& near : near_) {
     out.push_back(near.tips().first);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace trochoid::stock {
@@ -51,6 +52,7 @@ class Surroundings::Search {
     for (const Near& near : around_.near_) {
       add_part(near);
     }
+    add_chains();
     add_short();
     add_slopes();
     add_initial();
@@ -120,8 +122,20 @@ class Surroundings::Search {
     add_covered(part, first);
   }
 
+  /// Chains whose pieces count: opened, and the others as the discs in their middle.
+  void add_chains() {
+    for (const std::size_t k : chains_left(around_.chains_, height_, r_, discs_)) {
+      const Chain& chain = around_.swept_.chains()[around_.chains_[k].place];
+      for (std::uint32_t i = chain.first; i <= chain.last; ++i) {
+        const Piece& piece = around_.swept_.path().pieces[i];
+        const Wall& wall = around_.swept_.wall(piece.tool);
+        if (const auto near = around_.near_of(piece, wall, 1.0)) add_part(*near);
+      }
+    }
+  }
+
   void add_short() {
-    const ShortParts found = short_parts(short_, r_);
+    const ShortParts found = short_parts(short_, r_, std::move(discs_));
     all_covered_ = all_covered_ || found.all_around;
     for (const geometry::Arc& arc : found.covered) {
       const double from = wrapped(arc.from);
@@ -481,6 +495,7 @@ class Surroundings::Search {
   double r_;
   std::vector<SlicePart> slopes_;
   std::vector<SlicePart> short_;
+  std::vector<geometry::Arc> discs_;    ///< that are covered by chains
   std::vector<geometry::Arc> covered_;  ///< by parts that are level
   std::vector<double> own_;
   bool all_covered_ = false;

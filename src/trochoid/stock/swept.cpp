@@ -116,21 +116,33 @@ void Swept::fill() {
   rows_ = static_cast<int>(depth / cell_) + 1;
   first_.assign(
       static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
+  chains_ = stock::chains(path_, cutting, [&](const Piece& piece) {
+    return wall(piece.tool).is_upright() ? radius(piece.tool) : 0.0;
+  });
   const auto each = [&](const auto& f) {
-    for (const std::uint32_t i : cutting) {
-      const Piece& piece = path_.pieces[i];
-      for_each_cell(piece, radius(piece.tool) + largest,
-                    [&](std::size_t cell) { f(cell, i); });
+    for (std::uint32_t k = 0; k < chains_.size(); ++k) {
+      const Chain& chain = chains_[k];
+      Piece piece = path_.pieces[chain.first];
+      double reach = radius(piece.tool) + largest;
+      if (!chain.alone) {
+        piece.from = Point{chain.middle[0], chain.middle[1], chain.z};
+        piece.to = piece.from;
+        reach += chain.spread;
+      }
+      for_each_cell(piece, reach, [&](std::size_t cell) { f(cell, k); });
     }
   };
-  each([&](std::size_t cell, std::uint32_t) { ++first_[cell + 1]; });
+  each([&](std::size_t cell, std::uint32_t k) {
+    ++first_[cell + 1];
+    indexed_ += chains_[k].last + 1 - chains_[k].first;
+  });
   for (std::size_t i = 1; i < first_.size(); ++i) {
     used_ += first_[i] > 0 ? 1U : 0U;
     first_[i] += first_[i - 1];
   }
-  pieces_.resize(first_.back());
+  in_cells_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  each([&](std::size_t cell, std::uint32_t i) { pieces_[next[cell]++] = i; });
+  each([&](std::size_t cell, std::uint32_t k) { in_cells_[next[cell]++] = k; });
 }
 
 std::span<const std::uint32_t> Swept::in_cell(double x, double y) const noexcept {
@@ -142,27 +154,40 @@ std::span<const std::uint32_t> Swept::in_cell(double x, double y) const noexcept
   const std::size_t cell =
       static_cast<std::size_t>(v) * static_cast<std::size_t>(columns_) +
       static_cast<std::size_t>(u);
-  return std::span(pieces_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+  return std::span(in_cells_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
 }
 
-std::vector<std::uint32_t> Swept::near(double x, double y, double turns,
-                                       double reach) const {
-  const std::span<const std::uint32_t> all = in_cell(x, y);
+Nearby Swept::near(const Place& place, double reach) const {
+  const std::span<const std::uint32_t> all = in_cell(place.tip[0], place.tip[1]);
   const bool by_map = map_ && (!all_flat_ || crowded()) && mapped_ > 0 &&
-                      path_.pieces[mapped_ - 1].turns_to <= turns;
-  if (!by_map || all.size() <= few) return {all.begin(), all.end()};
-  std::vector<std::uint32_t> out;
-  map_->add_near(x, y, reach, out);
-  const auto later = std::ranges::lower_bound(all, mapped_);
-  const auto future = std::partition_point(later, all.end(), [&](std::uint32_t i) {
-    return path_.pieces[i].turns_from <= turns;
-  });
-  out.insert(out.end(), later, future);
+                      path_.pieces[mapped_ - 1].turns_to <= place.turns &&
+                      all.size() > few;
+  Nearby out;
+  if (by_map) map_->add_near(place.tip[0], place.tip[1], reach, out.pieces);
+  for (const std::uint32_t k : all) {
+    const Chain& chain = chains_[k];
+    if (chain.first > place.last ||
+        path_.pieces[chain.first].turns_from > place.turns) {
+      break;
+    }
+    if (by_map && chain.last < mapped_) continue;
+    const bool hidden = chain.hidden_by < place.last &&
+                        path_.pieces[chain.hidden_by].turns_to <= place.turns;
+    if (hidden) continue;
+    const bool whole =
+        chain.last < place.last && path_.pieces[chain.last].turns_to <= place.turns;
+    if (!chain.alone && whole && !by_map) {
+      out.chains.push_back(k);
+      continue;
+    }
+    const std::uint32_t first = by_map ? std::max(chain.first, mapped_) : chain.first;
+    for (std::uint32_t i = first; i <= chain.last; ++i) out.pieces.push_back(i);
+  }
   return out;
 }
 
 bool Swept::crowded() const noexcept {
-  return static_cast<double>(pieces_.size()) > many * static_cast<double>(used_);
+  return static_cast<double>(indexed_) > many * static_cast<double>(used_);
 }
 
 void Swept::keep_map(double cell) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <trochoid/geometry/arcs.h>
+#include <trochoid/stock/chains.h>
 #include <trochoid/stock/height_map.h>
 #include <trochoid/stock/initial.h>
 #include <trochoid/stock/path.h>
+#include <trochoid/stock/short_parts.h>
 #include <trochoid/stock/slice_part.h>
 #include <trochoid/stock/wall.h>
 
@@ -16,6 +18,21 @@
 #include <vector>
 
 namespace trochoid::stock {
+
+/// A cutter somewhere on its way.
+struct Place {
+  Point tip{};                ///< [m]
+  double direction = 0.0;     ///< of the feed from +x [rad]
+  double turns = 0.0;         ///< what was swept up to then is gone
+  std::uint32_t last = 0;     ///< pieces up to this one
+  bool without_last = false;  ///< but for it
+};
+
+/// What may bound the stock near a place, each ascending.
+struct Nearby {
+  std::vector<std::uint32_t> pieces;  ///< one by one
+  std::vector<std::uint32_t> chains;  ///< whole
+};
 
 /// @brief What the tools of a program leave of the stock, without a grid.
 ///
@@ -36,11 +53,10 @@ class Swept {
   [[nodiscard]] double radius(std::int16_t tool) const noexcept {
     return wall(tool).largest();
   }
-  /// @brief Pieces that bound the stock near a cutter, and perhaps others; ascending.
-  /// @param turns  of the spindle, up to when
+  /// @brief What bounds the stock near a cutter, and perhaps more.
   /// @param reach  of the cutter [m]
-  [[nodiscard]] std::vector<std::uint32_t> near(double x, double y, double turns,
-                                                double reach) const;
+  [[nodiscard]] Nearby near(const Place& place, double reach) const;
+  [[nodiscard]] const std::vector<Chain>& chains() const noexcept { return chains_; }
 
   /// Whether all tools leave upright walls: then all pieces near a place are looked at.
   [[nodiscard]] bool all_flat() const noexcept { return all_flat_; }
@@ -77,20 +93,13 @@ class Swept {
   double cell_ = 1.0;
   int columns_ = 0;
   int rows_ = 0;
-  std::vector<std::uint32_t> first_;  ///< shape (cells + 1)
-  std::vector<std::uint32_t> pieces_;
+  std::vector<std::uint32_t> first_;     ///< shape (cells + 1)
+  std::vector<std::uint32_t> in_cells_;  ///< chains
+  std::size_t indexed_ = 0;              ///< pieces in all cells together
+  std::vector<Chain> chains_;
   std::size_t used_ = 0;  ///< cells of the index with a piece
   std::optional<HeightMap> map_;
   std::uint32_t mapped_ = 0;  ///< how many pieces are in the map
-};
-
-/// A cutter somewhere on its way.
-struct Place {
-  Point tip{};                ///< [m]
-  double direction = 0.0;     ///< of the feed from +x [rad]
-  double turns = 0.0;         ///< what was swept up to then is gone
-  std::uint32_t last = 0;     ///< pieces up to this one
-  bool without_last = false;  ///< but for it
 };
 
 /// @brief What is swept near a cutter up to a moment, in the frame of the cutter.
@@ -137,7 +146,10 @@ class Surroundings {
   };
   [[nodiscard]] SlicePoint local(double x, double y) const noexcept;
   [[nodiscard]] bool is_far(const Near& near) const noexcept;
-  void add_near(const Piece& piece, const Wall& wall, double until);
+  void add_piece(std::uint32_t index);
+  void add_chain(std::uint32_t index);
+  [[nodiscard]] std::optional<Near> near_of(const Piece& piece, const Wall& wall,
+                                            double until) const;
   void add_chords(const Piece& piece, const Wall& wall, double until);
   class Search;
 
@@ -146,6 +158,7 @@ class Surroundings {
   double reach_;
   double cosine_, sine_;
   std::vector<Near> near_;
+  std::vector<NearChain> chains_;
 };
 
 /// @brief Volume that all moves together take from the stock, by scan lines [m^3]; with a map

@@ -177,7 +177,7 @@ TEST(Swept, TheMapOfHeightsNamesThePiecesThatCount) {  // [N-3] [N-17]
                    .turns = 0.5 * (pieces[i].turns_from + pieces[i].turns_to) - 1,
                    .last = i};
     few.sweep_to(at.turns);
-    named = std::max(named, few.near(at.tip[0], at.tip[1], at.turns, 3e-3).size());
+    named = std::max(named, few.near(at, 3e-3).pieces.size());
     for (const double height : {2e-5, 1e-4, 5e-4, 1e-3}) {
       const double r = ball_radius(3e-3, height);
       const auto a = Surroundings(all, at, 3e-3).arcs(height, r);
@@ -192,7 +192,7 @@ TEST(Swept, TheMapOfHeightsNamesThePiecesThatCount) {  // [N-3] [N-17]
   }
   EXPECT_GT(looked, 200u);
   EXPECT_LT(named, 120u);
-  EXPECT_GT(all.near(0, 0, 1e9, 3e-3).size(), 500u);
+  EXPECT_GT(all.near({.turns = 1e9, .last = 1u << 30}, 3e-3).pieces.size(), 500u);
 }
 
 TEST(HeightMap, TakesTheVolumeOfASlotOfABall) {  // [N-17]
