@@ -62,7 +62,10 @@ struct Column {
 };
 
 /// A number of a column in the unit of its name.
-double in_unit_of(std::string_view name, ColumnValue cell);
+double in_unit(double unit, ColumnValue cell);
+
+/// What one of the unit of a column is in SI.
+double unit_of_column(std::string_view name);
 
 /// A column as the page of formats has it.
 struct ColumnText {
@@ -97,8 +100,9 @@ class Columns {
       for (std::size_t which = 0; which < names.size(); ++which) {
         std::string name(column.name);
         if (column.differ) name.replace(name.find('*'), 1, names[which]);
+        const double unit = unit_of_column(name);
         base::add_column(table, name, rows, [&](std::size_t row) {
-          return in_unit_of(name, column.cell(of, row, which));
+          return in_unit(unit, column.cell(of, row, which));
         });
       }
     }

@@ -28,9 +28,12 @@ Value in_unit_of(std::string_view key, Content content) {
   return std::move(content.value);
 }
 
-double in_unit_of(std::string_view name, ColumnValue cell) {
+double unit_of_column(std::string_view name) {
+  return unit::of_key(name).factor;
+}
+
+double in_unit(double unit, ColumnValue cell) {
   if (cell.kind == Content::Numbers::as_named) return cell.value;
-  const double unit = unit::of_key(name).factor;
   return cell.kind == Content::Numbers::given ? unit::in(cell.value, unit)
                                               : cell.value / unit;
 }

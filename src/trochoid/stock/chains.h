@@ -23,6 +23,11 @@ struct Chain {
   double z = 0.0;                  ///< of the tip [m]
   /// A later piece: when it is swept, all that these have swept is swept by others as well.
   std::uint32_t hidden_by = std::numeric_limits<std::uint32_t>::max();
+
+  /// Whether it is hidden at the end of the path.
+  [[nodiscard]] bool is_hidden() const noexcept {
+    return hidden_by != std::numeric_limits<std::uint32_t>::max();
+  }
 };
 
 /// @brief Chains of the pieces that are named, in their order.

@@ -36,6 +36,12 @@ double distance_to(const Piece& piece, double x, double y) noexcept {
   return std::hypot(x - piece.from[0] - u * ax, y - piece.from[1] - u * ay);
 }
 
+/// A place on a straight piece.
+std::array<double, 2> along(const Piece& piece, double u) noexcept {
+  return {piece.from[0] + u * (piece.to[0] - piece.from[0]),
+          piece.from[1] + u * (piece.to[1] - piece.from[1])};
+}
+
 struct Extent {
   std::array<double, 2> low;
   std::array<double, 2> high;
@@ -119,6 +125,10 @@ void Swept::fill() {
   chains_ = stock::chains(path_, cutting, [&](const Piece& piece) {
     return wall(piece.tool).is_upright() ? radius(piece.tool) : 0.0;
   });
+  index_chains(largest);
+}
+
+void Swept::index_chains(double largest) {
   const auto each = [&](const auto& f) {
     for (std::uint32_t k = 0; k < chains_.size(); ++k) {
       const Chain& chain = chains_[k];
@@ -134,7 +144,8 @@ void Swept::fill() {
   };
   each([&](std::size_t cell, std::uint32_t k) {
     ++first_[cell + 1];
-    indexed_ += chains_[k].last + 1 - chains_[k].first;
+    const Chain& chain = chains_[k];
+    if (!chain.is_hidden()) indexed_ += chain.last + 1 - chain.first;
   });
   for (std::size_t i = 1; i < first_.size(); ++i) {
     used_ += first_[i] > 0 ? 1U : 0U;
@@ -229,9 +240,7 @@ class Scan {
     if (piece.arc()) {
       add_sector(piece, R, from, to, y);
     } else {
-      const PathPoint a = point_at(piece, from);
-      const PathPoint b = point_at(piece, to);
-      add_capsule(a.place, b.place, R, y);
+      add_capsule(along(piece, from), along(piece, to), R, y);
     }
   }
 
@@ -271,7 +280,8 @@ class Scan {
     }
   }
 
-  void add_capsule(const Point& a, const Point& b, double R, double y) {
+  void add_capsule(const std::array<double, 2>& a, const std::array<double, 2>& b,
+                   double R, double y) {
     add_disc(a[0], a[1], R, y);
     add_disc(b[0], b[1], R, y);
     const double dx = b[0] - a[0];
@@ -375,11 +385,15 @@ double swept_area(const Swept& swept, double z, double step) {
     const Piece* piece;
   };
   std::vector<Reach> reaches;
-  for (const Piece& piece : swept.path().pieces) {
-    const double R = swept.radius(piece.tool);
-    if (R > 0 && std::min(piece.from[2], piece.to[2]) <= z) {
-      const Extent e = extent(piece);
-      reaches.push_back({e.low[1] - R, e.high[1] + R, &piece});
+  for (const Chain& chain : swept.chains()) {
+    if (chain.is_hidden()) continue;
+    for (std::uint32_t i = chain.first; i <= chain.last; ++i) {
+      const Piece& piece = swept.path().pieces[i];
+      const double R = swept.radius(piece.tool);
+      if (R > 0 && std::min(piece.from[2], piece.to[2]) <= z) {
+        const Extent e = extent(piece);
+        reaches.push_back({e.low[1] - R, e.high[1] + R, &piece});
+      }
     }
   }
   if (reaches.empty()) return 0.0;

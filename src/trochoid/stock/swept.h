@@ -79,6 +79,7 @@ class Swept {
 
  private:
   void fill();
+  void index_chains(double largest);
   [[nodiscard]] std::span<const std::uint32_t> in_cell(double x,
                                                        double y) const noexcept;
   template <class Function>
@@ -95,7 +96,8 @@ class Swept {
   int rows_ = 0;
   std::vector<std::uint32_t> first_;     ///< shape (cells + 1)
   std::vector<std::uint32_t> in_cells_;  ///< chains
-  std::size_t indexed_ = 0;              ///< pieces in all cells together
+  std::size_t indexed_ =
+      0;  ///< pieces in all cells together that are not hidden at last
   std::vector<Chain> chains_;
   std::size_t used_ = 0;  ///< cells of the index with a piece
   std::optional<HeightMap> map_;

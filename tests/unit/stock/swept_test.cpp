@@ -78,6 +78,22 @@ std::vector<Move> short_moves(unsigned seed) {
   return moves;
 }
 
+/// A clearing in short blocks: three deep rows, then rows over all of it.
+std::vector<Move> rows_of_blocks(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> length(1e-4, 5e-4);
+  std::vector<Move> moves{move(MoveKind::rapid, -0.012, -0.012, -0.002)};
+  for (int row = 0; row < 26; ++row) {
+    const double z = row < 3 ? -0.003 : -0.002;
+    const double y = -0.012 + 1.3e-3 * (row < 3 ? row + 8 : row - 3);
+    for (double s = -0.012; s < 0.012; s += length(random)) {
+      const double x = row % 2 == 0 ? s : -s;
+      moves.push_back(move(MoveKind::line, x, y + 4e-4 * std::sin(400 * x + seed), z));
+    }
+  }
+  return moves;
+}
+
 /// Distance of a point at a height from all that was swept, by many places of the tip.
 bool swept_by_sampling(const Path& path, double R, double x, double y, double z,
                        double turns, double slack) {
@@ -109,7 +125,7 @@ int compare_arcs(std::vector<Move> (*moves)(unsigned seed), double across) {
                      .turns = swept.path().turns * (k + 1) / 3,
                      .last = last};
       const Surroundings around(swept, at, R);
-      const double height = 1e-3 * k;
+      const double height = 1e-3 * ((k + static_cast<int>(seed)) % 3);
       const auto arcs = around.arcs(height, R);
       for (double theta = -1.5; theta < 4.7; theta += 0.21) {
         const double angle = at.direction + pi / 2 - theta;
@@ -142,6 +158,15 @@ TEST(Swept, ArcsAreThePointsThatNoPlaceOfTheCutterCovers) {  // [N-3]
 
 TEST(Swept, ArcsBesideManyShortBlocksAreTheseToo) {  // [N-3]
   EXPECT_GT(compare_arcs(short_moves, 0.02), 400);
+}
+
+TEST(Swept, ArcsInAClearingOfShortBlocksAreTheseToo) {  // [N-3] [N-27]
+  EXPECT_GT(compare_arcs(rows_of_blocks, 0.014), 350);
+  const Swept swept(stock::path(rows_of_blocks(1), 0.1), box, {Wall::upright(5e-3)});
+  std::size_t hidden = 0;
+  for (const Chain& chain : swept.chains()) hidden += chain.is_hidden() ? 1U : 0U;
+  EXPECT_GT(hidden, swept.chains().size() / 2);
+  EXPECT_LT(swept.chains().size(), swept.path().pieces.size() / 3);
 }
 
 TEST(Swept, ACircleOnTheAxisOfAnOldSlotOfItsOwnMeetsNothing) {  // [N-3]
