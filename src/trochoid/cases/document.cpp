@@ -136,6 +136,9 @@ std::string_view hint(std::string_view why) {
   if (why.find("could not determine value type") != std::string_view::npos) {
     return "; a text needs quotes: key = \"value\"";
   }
+  if (why.find("unknown escape sequence") != std::string_view::npos) {
+    return "; in the name of a file write / in place of \\";
+  }
   return {};
 }
 
