@@ -44,11 +44,13 @@ std::vector<force::Channel> channels_named(const std::vector<std::string>& axes,
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto channel = channel_named(axes[i]);
     if (!channel) {
-      report(findings, "dynamometer.axes",
-             fmt::format("dynamometer.axes entry {} = {}: no axis; must be {}, with a "
-                         "sign if need be (what channel {} reads)",
-                         i + 1, toml_string(axes[i]),
-                         fmt::join(force::channel_axis_names, ", "), i + 1));
+      report(
+          findings, "dynamometer.axes",
+          fmt::format("dynamometer.axes entry {} = {}: no axis; must be {}, in capital "
+                      "and small letters as here, with a sign if needed (what "
+                      "channel {} reads)",
+                      i + 1, toml_string(axes[i]),
+                      fmt::join(force::channel_axis_names, ", "), i + 1));
       return {};
     }
     if (std::ranges::find(out, channel->axis, &force::Channel::axis) != out.end()) {

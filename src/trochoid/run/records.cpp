@@ -521,8 +521,8 @@ std::string missing_channel(const signal::Record& record, const cases::Case& giv
       record.file + ": not all three channels were measured, so that ";
   if (dynamometer.automatic) {
     return begin +
-           "axes = \"auto\" cannot find what the others read; give the axes, for "
-           "example axes = [\"x\", \"y\", \"z\"]";
+           "axes = \"auto\" cannot find what the others read; give an axis for each "
+           "channel, for example axes = [\"x\", \"y\"] for two";
   }
   if (!identification::measured_forces(record.measured, dynamometer.matrix)) {
     return begin +
