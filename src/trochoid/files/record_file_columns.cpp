@@ -219,7 +219,7 @@ Places usual_forces(const ColumnSearch& search, const std::vector<ChannelAxis>& 
     search.problems.add(
         search.head.names_line, 1,
         fmt::format("no column is named {}: the columns are {}; columns = "
-                    "[...] in the case file names the {}, time_column the time{}",
+                    "[...] in [[measurement]] names the {}, time_column the time{}",
                     any_of(axes), all_names(search.head),
                     axes.size() == 3 ? "three forces" : "channels",
                     numbers_help(search)));
@@ -234,7 +234,7 @@ Places usual_forces(const ColumnSearch& search, const std::vector<ChannelAxis>& 
           search.head.names_line, 1,
           fmt::format(
               "no column is named {0}, for example {0}_{1}: the columns are {2}; "
-              "columns = [...] in the case file names the {3}",
+              "columns = [...] in [[measurement]] names the {3}",
               shown(axes[i]), force::name_of(force::unit_of(axes[i])),
               all_names(search.head), axes.size() == 3 ? "three forces" : "channels"));
       continue;

@@ -97,7 +97,7 @@ TEST(RecordNumeric, TellsColumnsOfOneNameByTheirPaths) {
   EXPECT_EQ(refusal(made),
             "r.bin: no column is named Fx, for example Fx_N: the columns are "
             "\"first/Fx\", \"Fy\", \"Fz\", \"second/Fx\", \"time_s\"; columns = [...] "
-            "in the case file names the three forces\n");
+            "in [[measurement]] names the three forces\n");
   RecordSource m;
   m.columns = {"second/Fx", "first/Fy", "Fz"};
   const auto record = record_of(table_of(made), "r.bin", m);

@@ -66,7 +66,7 @@ TEST(RecordUff58, RefusesWhatIsNoRecord) {
   EXPECT_EQ(
       refusal(as_text(acceleration)),
       "r.uff: no column is named Fx, Fy or Fz: the columns are "
-      "\"Acceleration\"; columns = [...] in the case file names the three forces, "
+      "\"Acceleration\"; columns = [...] in [[measurement]] names the three forces, "
       "time_column the time\n");
   auto part = force(1, {1, 2, 3});
   part.promised = 500;
