@@ -116,7 +116,8 @@ FrfColumns find_columns(const FrfTable& table, Problems& problems) {
   if (!f || !((re && im) || out.polar)) {
     problems.add(table.names_line, 1,
                  fmt::format("no columns are named freq_Hz, and re and im, or mag and "
-                             "phase_deg: the columns are {}",
+                             "phase_deg (of hammer blows in time: time_s, force_N, and "
+                             "a response such as acc_g): the columns are {}",
                              names_in_words(table)));
     return out;
   }

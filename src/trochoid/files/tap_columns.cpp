@@ -120,7 +120,8 @@ double force_factor(const TapColumn& column, const std::string& unit, FrfFile& o
     if (unit == name) return factor;
   }
   problems.add(column.line, column.at,
-               fmt::format("the unit {} is no unit of a force: N, kN and lbf are",
+               fmt::format("the unit {} is no unit of a force: N, kN and lbf are; for "
+                           "volts give kind and scale in [frf]",
                            excerpt(unit)));
   return 1.0;
 }
@@ -240,7 +241,8 @@ double settle_response(const TapColumn& column, const FrfSource& source, FrfFile
     problems.add(
         column.line, column.at,
         fmt::format("the response {} {}: acceleration_m/s2, acc_g, velocity_m/s "
-                    "or displacement_um are right",
+                    "or displacement_um are right; for volts give kind and scale in "
+                    "[frf]",
                     excerpt(column.name),
                     text.empty() ? "says no unit" : "has no unit of motion"));
   }

@@ -75,10 +75,10 @@ std::string unresolved(Responses all, const ModesModel& model, const ModeTerm& t
   }
   if (fewest < least_lines_in_peak) {
     return fmt::format(
-        "the resonance at {} is {} wide, and {} of the {} in it: at least {} are "
-        "needed, so measure longer",
-        hertz(t.omega), hertz(2 * t.zeta * t.omega), fewest,
-        single ? "measured lines lies" : "lines of a response lie",
+        "the resonance at {} is {} wide. {} in it: {}; at least {} are needed, so "
+        "measure longer",
+        hertz(t.omega), hertz(2 * t.zeta * t.omega),
+        single ? "Measured lines" : "Measured lines of a response", fewest,
         least_lines_in_peak);
   }
   const double part = part_of(all, model, t);
