@@ -152,8 +152,9 @@ void fill_at(const Problem& problem, std::span<const Run> runs, Minimum& minimum
   if (means_do_not_suffice(problem) &&
       only_noise(problem, linear, left.rss / known.freedom)) {
     fit.message =
-        "this model explains no more of how the force changes over the turn than it "
-        "would of noise; the three means alone cannot determine six coefficients";
+        "this model explains the change of the force over a turn no better than it "
+        "would explain noise; the three mean forces alone cannot determine six "
+        "coefficients";
     refuse_coefficients(problem, fit);
     return;
   }

@@ -108,7 +108,8 @@ std::vector<base::Warning> likely_causes(const cases::Case& given,
     out.push_back(
         likely("The axes or the sign of the force: a table dynamometer feels the "
                "reaction, axes = [\"-x\", \"-y\", \"-z\"]; axes = \"auto\" tries all "
-               "readings (none of them is much better as the case stands)."));
+               "readings (no other reading fits much better; one with other signs may "
+               "fit equally well)."));
   }
   const bool by_time = std::any_of(runs.begin(), runs.end(),
                                    [](const MeasuredRun& run) { return run.by_time; });
