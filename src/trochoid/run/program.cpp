@@ -419,7 +419,9 @@ void say(const ProgramForces& forces, std::size_t moves, results::Heading& headi
   const engagement::Totals& all = forces.summary.totals;
   if (!(all.time_in_cut > 0)) {
     heading.ok = false;
-    heading.message = "No feed move of the program cuts anything.";
+    heading.message =
+        "No feed move of the program cuts anything: compare the places of the moves with "
+        "[stock] and origin_mm.";
     return;
   }
   heading.message = fmt::format(

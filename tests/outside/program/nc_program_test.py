@@ -374,7 +374,8 @@ class NcProgram(InFolder):
         self.case(stock={"box_mm": [[0, -30, -10], [60, 60, -5]]})
         self.answer(code=1)
         self.assertEqual(self.summary("out")["message"],
-                         "No feed move of the program cuts anything.")
+                         "No feed move of the program cuts anything: compare the places of "
+                         "the moves with [stock] and origin_mm.")
 
     def test_places(self):
         self.case(program={"file": "part.nc", "tool_number": 1, "ignore_tools": [2],
