@@ -354,9 +354,9 @@ std::string new_case(Command command, const NewCaseOptions& options) {
       options.material.empty() ? "" : put_material(command, options, fresh);
   const std::string about = tool ? put_tool(*tool, fresh.tables) : "";
   std::string text = fmt::format(
-      "# A case for `trochoid {}`: write your own numbers in place of these.\n"
-      "# Every key ends in its unit. A key behind a # may be left out. All keys, with\n"
-      "# their ranges: docs/formats/case.md\n{}\n",
+      "# A case for `trochoid {}`: write your own numbers in place of these. Keys end\n"
+      "# in their unit. A key behind a # may be left out. Keys and lists here replace those\n"
+      "# of a file in `include`. All keys, with ranges: docs/formats/case.md\n{}\n",
       name_of(command), about);
   const auto line = [&text](std::string_view left, std::string_view right) {
     text += fmt::format("{:<33} # {}\n", left, right);

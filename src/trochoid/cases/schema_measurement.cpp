@@ -238,7 +238,7 @@ void describe(const Visitor& v, IdentifyTable& t) {
      .meaning =
          "none; fixed: [runout] as it stands; or find the radial offsets, the "
          "eccentricity, both, axial offsets, the tilt, or a list of these; auto: "
-         "what the record decides for"},
+         "the record decides"},
     runout);
   v({.name = "phase_deg",
      .meaning =
@@ -267,7 +267,7 @@ void describe(const Visitor& v, IdentifyTable& t) {
   v({.name = "shared",
      .meaning =
          "what measurements of different groups have in common; runout: the tool "
-         "was not clamped anew between them"},
+         "stayed in its holder between them"},
     choice(t.shared));
   v({.name = "previous_clamping",
      .meaning =
