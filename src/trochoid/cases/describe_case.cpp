@@ -25,18 +25,18 @@ that it needs and checks all of them. `trochoid new COMMAND` writes a file to st
   `_GPa`, `_N_per_mm`, `_N_per_mm3`, `_Hz`, `_s`. A key without such an ending is a plain number, a text
   or a choice.
 * A key that ends with `_mm` or `_mm_per_min` may be given in inches, `diameter_in`,
-  `feed_rate_in_per_min`: one of the two. What is written has millimetres.
-* A mistake is told as `file:line:column: key = value: why; what is right (what it means)`,
-  all mistakes at once. Unknown keys are mistakes.
+  `feed_rate_in_per_min`: one of the two. Results are in millimetres.
+* A message has the form `file:line:column: key = value: why; what is right (what it means)`.
+  All mistakes are reported at once. Unknown keys are mistakes.
 * Relative file names count from the file in which they stand.
 * `include = "other.toml"` above all tables takes over the tables of another case file.
   Tables merge key by key and the including file wins; a list of tables (`[[...]]`) is
-  replaced whole. An included file may include another. Of several, `include = ["x.toml",
-  "y.toml"]`, lists of tables are joined (the `[[mode]]` of both), of all else the later
-  file wins.
-* `schema = 1` above all tables says which version of these keys is meant; left out, it
-  is that of the program. It is raised when a key goes or changes its meaning or unit, not
-  for further keys; a file of another version is refused before anything else is judged.
+  replaced as a whole. An included file may include another. If there are several,
+  `include = ["x.toml", "y.toml"]`, lists of tables are joined (the `[[mode]]` of both). For
+  all other keys the later file wins.
+* `schema = 1` above all tables gives the version of these keys. Without it the version of
+  the program counts. The number grows when a key is removed or changes its meaning or unit,
+  not for new keys. A file of another version is refused before anything else is checked.
 * In the folder of results, `case.toml` is the case as it was understood, with every
   default filled in. It is a case file again.
 * A force record is a file of [one of these formats](record.md); a measured surface is
@@ -44,8 +44,8 @@ that it needs and checks all of them. `trochoid new COMMAND` writes a file to st
 * Editors complete and check keys by [case.schema.json](case.schema.json) (JSON Schema,
   draft 7, with units, ranges and defaults): the line `#:schema case.schema.json` at the
   top of a case, for Even Better TOML and other editors with
-  [Taplo](https://taplo.tamasfe.dev); `trochoid new --schema` prints that file. What depends
-  on the command, on other tables or on files, only `trochoid check` tells.
+  [Taplo](https://taplo.tamasfe.dev). `trochoid new --schema` prints that file. Only
+  `trochoid check` finds mistakes that depend on the command, on other tables or on files.
 * The letters and signs are those of [the notation](../notation.md).
 )";
 
