@@ -184,6 +184,20 @@ struct TableReader {
         fmt::format("{} is missing{}; {}", key_path, why, must_be[known.back()]);
   }
 
+  /// The key of this table that may be meant: of a key of another table one that differs in
+  /// a letter.
+  [[nodiscard]] std::string near_key(std::string_view key, bool has_home) const {
+    std::string near = nearest(key, known);
+    const std::size_t longer = std::max(near.size(), key.size());
+    const std::size_t shorter = std::min(near.size(), key.size());
+    const auto same = static_cast<std::size_t>(
+        std::mismatch(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(shorter),
+                      key.begin())
+            .first -
+        near.begin());
+    return !has_home || same + 1 >= longer ? near : std::string();
+  }
+
   void report_unknown(const Member& member) {
     const std::string shown = path_of(shown_key(member.key));
     std::string hint;
@@ -195,9 +209,11 @@ struct TableReader {
     }
     if (findings.problems.size() < most_hints) {
       hint = home_of(member.key);
-      const std::string near = hint.empty() ? nearest(member.key, known) : "";
+      const std::string near = near_key(member.key, !hint.empty());
       if (hint.empty()) {
         hint = suggestion(member.key, known);
+      } else if (!near.empty()) {
+        hint = fmt::format("; did you mean {}? ({})", near, hint.substr(2));
       }
       if (!near.empty()) {
         missing.erase(near);

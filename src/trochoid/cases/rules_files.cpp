@@ -63,7 +63,8 @@ void check_file(const Named& named, Findings& findings) {
     const bool plain = std::none_of(path.begin(), path.end(), [](char c) {
       return static_cast<unsigned char>(c) < 0x20;
     });
-    why = fmt::format("there is no such file ({})", plain ? path : toml_string(path));
+    why = fmt::format("there is no such file ({}){}", plain ? path : toml_string(path),
+                      plain ? "" : "; in the name of a file write / in place of \\");
   } else if (fs::is_directory(status)) {
     why = "this is a folder";
   } else if (!fs::is_regular_file(status)) {

@@ -51,6 +51,7 @@ constexpr auto care = std::to_array<std::pair<std::string_view, std::string_view
     {"runout_form", "another form of runout explains more"},
     {"few_equations", "hardly more equations than unknowns"},
     {"runout_above_feed", "the teeth differ by more than the feed"},
+    {"large_runout", "the runout is larger than tools have"},
     {"spindle_speed_unknown", "the spindle speed could not be found"},
     {"channel_gain", "the gain of a channel does not fit the others"},
     {"channel_delay", "the channels do not read at the same time"},
@@ -246,6 +247,19 @@ void warn_large_runout(const cases::Case& given, const Fit& chosen,
          fmt::format("The teeth differ by {:.1f} um, more than the feed per tooth: a "
                      "tooth may cut nothing. Is the number of teeth right?",
                      (hi - lo) / unit::um)});
+  }
+  // Chip and runout scale with the feed: a feed with a wrong unit shows in the runout.
+  constexpr double most_of_diameter = 0.008;
+  constexpr double always_possible = 10 * unit::um;
+  const double D = given.setup.cutter.profile.D;
+  if (D > 0 && hi - lo > most_of_diameter * D + always_possible) {
+    warnings.push_back(
+        {"large_runout",
+         fmt::format(
+             "The teeth differ by {:.0f} um, which is much for a tool of {:.4g} "
+             "mm. Runout and 1/K scale with the feed: check that {:.4g} mm is "
+             "the feed per tooth.",
+             (hi - lo) / unit::um, D / unit::mm, given.setup.cut.f_z / unit::mm)});
   }
 }
 

@@ -82,8 +82,10 @@ std::string better_cut(const cases::Case& given, const std::vector<MeasuredRun>&
   return found->teeth
              ? fmt::format(
                    "The number of teeth: with teeth = {} (and the same feed in a turn) "
-                   "the fit leaves {} less than with {}.",
-                   *found->teeth, less, given.setup.cutter.teeth())
+                   "the fit leaves {} less than with {}. A spindle with {:.4g} times the "
+                   "stated speed would look the same.",
+                   *found->teeth, less, given.setup.cutter.teeth(),
+                   static_cast<double>(*found->teeth) / given.setup.cutter.teeth())
              : fmt::format(
                    "Up for down: with engagement = \"{}\" the fit leaves {} less.",
                    found->up ? "up" : "down", less);

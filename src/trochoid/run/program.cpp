@@ -117,6 +117,27 @@ Tools tools_of(const cases::Case& given, const program::Program& program) {
   return out;
 }
 
+/// Tools of the case that the program does not have.
+void warn_of_other_tools(const cases::NcProgram& nc, const program::Program& program,
+                         std::vector<base::Warning>& warnings) {
+  if (program.tools.empty()) return;
+  std::vector<std::string> other;
+  const auto look = [&](const std::string& name) {
+    if (!name.empty() && std::ranges::count(program.tools, name) == 0) {
+      other.push_back(name);
+    }
+  };
+  look(nc.tool_number.text);
+  for (const auto& [name, of] : nc.cases_of_tools) look(name);
+  if (other.empty()) return;
+  warnings.push_back(
+      {"tool_not_in_program",
+       fmt::format(
+           "[program] names the tool {}, which the program does not have. It has "
+           "{}: write them like this.",
+           fmt::join(other, ", "), fmt::join(program.tools, ", "))});
+}
+
 stock::Initial stock_of(const cases::Stock& stock, double cell,
                         std::vector<base::Warning>& warnings) {
   if (stock.box.size() == 2) return stock::Box{stock.box[0], stock.box[1]};
@@ -319,6 +340,21 @@ void warn_of_feeds(const results::NewFeeds& feed,
   }
 }
 
+/// Feeds that nothing but [feed] factor holds.
+void warn_of_no_limit(const cases::ProgramTables& nc,
+                      std::vector<base::Warning>& warnings) {
+  const cases::ForceLimits limits = nc.limits.value_or(cases::ForceLimits{});
+  const bool any = limits.peak_force || limits.peak_tooth || limits.torque ||
+                   limits.power || limits.bending_moment || limits.deflection ||
+                   !limits.chip.empty() ||
+                   (nc.machine && !nc.machine->power_curve.empty());
+  if (any || nc.feed->target != cases::FeedTarget::limits) return;
+  warnings.push_back(
+      {"no_limits",
+       "[limits] has no limit: every feed is raised to the highest that [feed] factor "
+       "allows. Write what the tool may bear, such as peak_tooth_N."});
+}
+
 /// What is missing in the answer.
 void warn_of_gaps(const ProgramForces& forces, std::vector<base::Warning>& warnings) {
   const engagement::Summary& summary = forces.summary;
@@ -459,7 +495,13 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
                                   r.program.moves.size(), fed, time);
   const Tools tools = tools_of(given, r.program);
   base::add(r.heading.warnings, tools.why_not);
-  if (!given.nc.stock || !tools.why_not.empty()) return r;
+  warn_of_other_tools(*given.nc.program, r.program, r.heading.warnings);
+  if (!given.nc.stock) return r;
+  if (!tools.why_not.empty()) {
+    r.heading.ok = false;
+    r.heading.message = "No forces: a tool of the program is in no case.";
+    return r;
+  }
   const double cell =
       given.nc.stock->cell.value_or(engagement::usual_cell(tools.tools));
   const stock::Initial stock = stock_of(*given.nc.stock, cell, r.heading.warnings);
@@ -489,6 +531,7 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
   warn_of_gaps(*r.forces, r.heading.warnings);
   if (r.forces->feed) {
     warn_of_feeds(*r.forces->feed, r.heading.warnings);
+    warn_of_no_limit(given.nc, r.heading.warnings);
   } else if (given.nc.feed && r.forces->summary.totals.time_in_cut > 0) {
     r.heading.warnings.push_back(
         {"no_new_feeds", "The time was up: no program with new feeds is written."});

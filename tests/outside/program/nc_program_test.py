@@ -307,11 +307,22 @@ class NcProgram(InFolder):
 
     def test_without_forces_there_are_the_moves(self):
         self.case(program={"ignore_tools": None})
-        result, warnings = self.answer()
+        result, warnings = self.answer(code=1)
         self.assertIn("tool_not_described", warnings)
+        self.assertNotIn("tool_not_in_program", warnings)
         self.assertNotIn("peaks", result)
         self.assertEqual({p.name for p in (self.folder / "out").iterdir()},
                          {"case.toml", "summary.json", "moves.csv"})
+
+    def test_a_tool_that_the_program_does_not_have_is_named(self):
+        self.case(program={"tool_number": 7})
+        self.assertIn("the tool 7, which", self.answer(code=1)[1]["tool_not_in_program"])
+
+    def test_new_feeds_without_a_limit_are_doubted(self):
+        self.case(limits={}, feed={"write": "new.nc"})
+        self.assertIn("no limit", self.answer()[1]["no_limits"])
+        self.case(limits={"peak_tooth_N": 1e6}, feed={"write": "new.nc"})
+        self.assertNotIn("no_limits", self.answer()[1])
 
     def test_any_cutter_is_computed(self):
         alike = {"shape": "cylinder", "teeth": 2, "diameter_mm": 10.0}

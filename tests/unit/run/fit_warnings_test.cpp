@@ -146,6 +146,20 @@ TEST(FitWarnings, SayThatAToothMayIdle) {
   EXPECT_TRUE(warnings(fit).empty()) << "the model knows no runout";
 }
 
+TEST(FitWarnings, SayThatARunoutIsTooLargeForItsTool) {
+  cases::Case coarse = given();
+  coarse.setup.cut.f_z = 0.5e-3;
+  coarse.setup.cutter.profile.D = 8e-3;
+  Fit fit = sound();
+  fit.runout.radial_offsets = {0.0, -100e-6};
+  const auto all = warnings(fit, coarse);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all.front().code, "large_runout");
+  EXPECT_EQ(reasons_for_care(all).size(), 1U);
+  fit.runout.radial_offsets = {0.0, -70e-6};
+  EXPECT_TRUE(warnings(fit, coarse).empty());
+}
+
 TEST(FitWarnings, SayThatTheRunoutIsKnownToOneSideOnly) {
   Fit fit = sound();
   fit.on_edge = {"radial_offsets_mm[2]"};
