@@ -62,7 +62,7 @@ struct Column {
 };
 
 /// A number of a column in the unit of its name.
-double in_unit(double unit, ColumnValue cell);
+double cell_in_unit(double unit, ColumnValue cell);
 
 /// What one of the unit of a column is in SI.
 double unit_of_column(std::string_view name);
@@ -102,7 +102,7 @@ class Columns {
         if (column.differ) name.replace(name.find('*'), 1, names[which]);
         const double unit = unit_of_column(name);
         base::add_column(table, name, rows, [&](std::size_t row) {
-          return in_unit(unit, column.cell(of, row, which));
+          return cell_in_unit(unit, column.cell(of, row, which));
         });
       }
     }

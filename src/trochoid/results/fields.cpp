@@ -32,7 +32,7 @@ double unit_of_column(std::string_view name) {
   return unit::of_key(name).factor;
 }
 
-double in_unit(double unit, ColumnValue cell) {
+double cell_in_unit(double unit, ColumnValue cell) {
   if (cell.kind == Content::Numbers::as_named) return cell.value;
   return cell.kind == Content::Numbers::given ? unit::in(cell.value, unit)
                                               : cell.value / unit;

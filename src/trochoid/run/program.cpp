@@ -307,6 +307,15 @@ void warn_of_unused(const cases::ProgramTables& nc,
                             "reached at once.")});
 }
 
+void warn_of_no_machine(const engagement::Options& options, const ProgramForces& forces,
+                        std::vector<base::Warning>& warnings) {
+  if (options.drives || !(forces.summary.totals.time_in_cut > 0)) return;
+  warnings.push_back(
+      {"no_machine",
+       "Without [machine] max_acceleration_m_per_s2 the feed is taken as reached at "
+       "once: in corners, where a machine brakes, forces are upper bounds."});
+}
+
 /// What the new feeds do not reach.
 void warn_of_feeds(const results::NewFeeds& feed,
                    std::vector<base::Warning>& warnings) {
@@ -521,12 +530,7 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
   base::add(r.heading.warnings, r.forces->summary.warnings);
   warn_of_flags(*r.forces, r.heading.warnings);
   warn_of_unused(given.nc, r.heading.warnings);
-  if (!job.options.drives && r.forces->summary.totals.time_in_cut > 0) {
-    r.heading.warnings.push_back(
-        {"no_machine",
-         "Without [machine] max_acceleration_m_per_s2 the feed is taken as reached at "
-         "once: in corners, where a machine brakes, forces are upper bounds."});
-  }
+  warn_of_no_machine(job.options, *r.forces, r.heading.warnings);
   if (r.forces->chatter) warn_of_chatter(*r.forces->chatter, r.heading.warnings);
   warn_of_gaps(*r.forces, r.heading.warnings);
   if (r.forces->feed) {
