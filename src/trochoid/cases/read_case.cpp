@@ -245,6 +245,7 @@ Case assemble(CaseTables& t, Command purpose, Findings& findings) {
   }
   if (purpose == Command::plan) check_plan(t, findings);
   check_program(t, findings);
+  if (of_program) check_measured_frfs(t.machine.measured_frfs, findings);
   c.nc = t.nc;
   c.plan = t.plan.value_or(Plan{});
   c.machine = t.machine;

@@ -1,7 +1,9 @@
 #include <trochoid/run/program.h>
 
 #include <trochoid/base/units.h>
+#include <trochoid/dynamics/tool_point.h>
 #include <trochoid/run/problems.h>
+#include <trochoid/run/vibration.h>
 
 #include <fmt/core.h>
 
@@ -48,8 +50,22 @@ double part_looked_at(const results::ProgramChatter& chatter) {
 
 }  // namespace
 
-engagement::Vibration vibration_of(const cases::Case& given) {
-  return {chip_modes(given.machine.modes), stability_options(given).chip_floor};
+engagement::Vibration vibration_of(const cases::Case& given,
+                                   std::vector<base::Warning>& warnings) {
+  engagement::Vibration out{chip_modes(given.machine.modes),
+                            stability_options(given).chip_floor};
+  if (!given.machine.modes.empty() || given.machine.measured_frfs.empty()) return out;
+  const dynamics::ToolPoint point =
+      dynamics::tool_point(tool_responses(given, warnings), true);
+  if (!point.no_modes) {
+    out.system = point.modes;
+    return out;
+  }
+  const cases::MeasuredFrf& of = given.machine.measured_frfs[point.no_modes->response];
+  warnings.push_back(
+      {"no_modes", fmt::format("{}: {}. Without modes nothing is said of chatter.",
+                               of.source.file.name, point.no_modes->reason)});
+  return out;
 }
 
 std::optional<results::ProgramChatter> chatter_of(

@@ -53,6 +53,7 @@ struct Tools {
   std::vector<engagement::Vibration> vibrations;  ///< the same
   std::vector<std::size_t> own;                   ///< places of the tool of the case
   std::vector<base::Warning> why_not;
+  std::vector<base::Warning> notes;  ///< of their measured responses
 };
 
 /// Tools of which a move is fed: others are only loaded.
@@ -85,7 +86,7 @@ Tools tools_of(const cases::Case& given, const program::Program& program) {
   Tools out;
   const auto add = [&](const cases::Case& one) {
     out.tools.push_back(tool_of(one));
-    out.vibrations.push_back(vibration_of(one));
+    out.vibrations.push_back(vibration_of(one, out.notes));
   };
   if (program.tools.empty()) {
     add(given);
@@ -504,6 +505,7 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
                                   r.program.moves.size(), fed, time);
   const Tools tools = tools_of(given, r.program);
   base::add(r.heading.warnings, tools.why_not);
+  base::add(r.heading.warnings, tools.notes);
   warn_of_other_tools(*given.nc.program, r.program, r.heading.warnings);
   if (!given.nc.stock) return r;
   if (!tools.why_not.empty()) {

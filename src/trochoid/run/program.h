@@ -57,8 +57,11 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
                                                 std::span<const engagement::Step> steps,
                                                 std::vector<base::Warning>& warnings);
 
-/// What vibrates with a tool, from its case.
-engagement::Vibration vibration_of(const cases::Case& given);
+/// @brief What vibrates with a tool, from its case: the modes, else those of the measured
+/// responses.
+/// @param[out] warnings  what a reader should know of the measurement
+engagement::Vibration vibration_of(const cases::Case& given,
+                                   std::vector<base::Warning>& warnings);
 
 /// @brief Where the cuts of a program chatter.
 /// @param steps        rows, in their order

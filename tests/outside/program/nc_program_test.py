@@ -96,6 +96,33 @@ class NcProgram(InFolder):
             self.assertEqual(named, beyond)
             self.assertEqual(bool(beyond), chatters)
 
+    def test_measured_responses_are_as_good_as_their_modes(self):
+        """Responses of the modes in the case above, with the same limits as these."""
+        mass, frequency, damping = 0.002, 900, 0.02
+        modes = responses = ""
+        for axis in "xy":
+            lines = ["freq_Hz,re_m/N,im_m/N"]
+            for i in range(1200):
+                w, w0 = 2 * math.pi * (300 + i), 2 * math.pi * frequency
+                H = 1 / (mass * (w0 ** 2 - w ** 2 + 2j * damping * w0 * w))
+                lines.append(f"{300 + i},{H.real!r},{H.imag!r}")
+            self.write(f"{axis}.csv", "\n".join(lines) + "\n")
+            responses += f'\n[[measured_frf]]\nfile = "{axis}.csv"\naxis = "{axis}"\n'
+            modes += (f'\n[[mode]]\nbody = "tool"\naxis = "{axis}"\nmass_kg = {mass}\n'
+                      f"frequency_Hz = {frequency}\ndamping_ratio = {damping}\n")
+        answers = []
+        for vibrates in (modes, responses):
+            self.case()
+            self.write("case.toml", (self.folder / "case.toml").read_text() + vibrates)
+            answers.append(self.answer()[0]["chatter"])
+        first, second = answers
+        self.assertTrue(first["lines"])
+        self.assertEqual([one["line"] for one in first["lines"]],
+                         [one["line"] for one in second["lines"]])
+        for a, b in zip(first["lines"], second["lines"]):
+            self.assertAlmostEqual(b["limit_depth_mm"], a["limit_depth_mm"],
+                                   delta=0.03 * a["limit_depth_mm"])
+
     def found(self, names, found, matrix, **more):
         """A summary.json as identify writes it."""
         covariance = {"law": "linear_edge", "chip_model": "trochoidal", "teeth": 2, "modes": [],
