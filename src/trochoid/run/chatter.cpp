@@ -63,7 +63,7 @@ engagement::Vibration vibration_of(const cases::Case& given,
   }
   const cases::MeasuredFrf& of = given.machine.measured_frfs[point.no_modes->response];
   warnings.push_back(
-      {"no_modes", fmt::format("{}: {}. Without modes nothing is said of chatter.",
+      {"no_modes", fmt::format("{}: {}. Without modes the answer names no line that chatters.",
                                of.source.file.name, point.no_modes->reason)});
   return out;
 }
