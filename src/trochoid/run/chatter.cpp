@@ -54,6 +54,7 @@ engagement::Vibration vibration_of(const cases::Case& given,
                                    std::vector<base::Warning>& warnings) {
   engagement::Vibration out{chip_modes(given.machine.modes),
                             stability_options(given).chip_floor};
+  warn_one_direction(given, warnings);
   if (!given.machine.modes.empty() || given.machine.measured_frfs.empty()) return out;
   const dynamics::ToolPoint point =
       dynamics::tool_point(tool_responses(given, warnings), true);
@@ -63,8 +64,9 @@ engagement::Vibration vibration_of(const cases::Case& given,
   }
   const cases::MeasuredFrf& of = given.machine.measured_frfs[point.no_modes->response];
   warnings.push_back(
-      {"no_modes", fmt::format("{}: {}. Without modes the answer names no line that chatters.",
-                               of.source.file.name, point.no_modes->reason)});
+      {"no_modes",
+       fmt::format("{}: {}. Without modes the answer names no line that chatters.",
+                   of.source.file.name, point.no_modes->reason)});
   return out;
 }
 

@@ -31,6 +31,9 @@ std::vector<dynamics::MeasuredResponse> tool_responses(
 void warn_of_response(const dynamics::ToolPoint& point, double chatter, double step,
                       std::vector<base::Warning>& warnings);
 
+/// @brief That modes along one axis leave the tool rigid along the other.
+void warn_one_direction(const cases::Case& given, std::vector<base::Warning>& warnings);
+
 std::vector<base::Warning> stability_warnings(const cases::Case& given,
                                               const dynamics::StabilityOptions& options,
                                               const dynamics::Stability& stability);

@@ -44,6 +44,33 @@ void warn_modes(const cases::Case& given, Warnings& warnings) {
   }
 }
 
+}  // namespace
+
+void warn_one_direction(const cases::Case& given, Warnings& warnings) {
+  bool x = false;
+  bool y = false;
+  for (const cases::Mode& mode : given.machine.modes) {
+    if (mode.axis == cases::Axis::z) continue;
+    const bool askew = mode.angle != 0.0;
+    x = x || askew || mode.axis == cases::Axis::x;
+    y = y || askew || mode.axis == cases::Axis::y;
+  }
+  for (const cases::MeasuredFrf& frf : given.machine.measured_frfs) {
+    x = x || frf.axis == cases::Axis::x;
+    y = y || frf.axis == cases::Axis::y;
+  }
+  if (x == y) return;
+  warnings.push_back(
+      {"one_direction",
+       fmt::format(
+           "All that vibrates moves along {}: the tool counts as rigid along {}. "
+           "If it is not, the true limit depth can be much lower: measure along "
+           "{}, too.",
+           x ? "x" : "y", x ? "y" : "x", x ? "y" : "x")});
+}
+
+namespace {
+
 std::string linear_text(const std::optional<double>& linear_growth) {
   if (!linear_growth) {
     return "the vibration does not die out";
@@ -93,6 +120,7 @@ Warnings stability_warnings(const cases::Case& given,
   Warnings warnings;
   warn_floor(stability, warnings);
   warn_modes(given, warnings);
+  warn_one_direction(given, warnings);
   if (!stability.cuts) {
     warnings.push_back(
         {"no_cut", "No tooth cuts anything: nothing but damping is left."});
