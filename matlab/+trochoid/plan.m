@@ -1,6 +1,6 @@
 function answer = plan(case_, varargin)
 %PLAN  Which cut to measure next: the one that narrows cutting coefficients and runout
-%   most; or how to measure a wall, and how to cut it.
+%   most; how to measure a wall, and how to cut it; which feed keeps a roughness.
 %
 %   answer = trochoid.plan(case_) of a case file, or of a struct of its tables.
 %

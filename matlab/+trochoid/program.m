@@ -1,6 +1,6 @@
 function answer = program(case_, varargin)
-%PROGRAM  The moves of a whole NC program in G code: every word is executed, known to be
-%   without effect, or told with its line and column.
+%PROGRAM  Forces on each tooth along a whole NC program in G code, with runout: which line
+%   loads the tool most, and the feeds that keep your limits.
 %
 %   answer = trochoid.program(case_) of a case file, or of a struct of its tables.
 %

@@ -65,8 +65,8 @@ void name_only_matrix(NumericTable& table, const std::string& name,
   const auto second = std::find_if(first + 1, columns.end(), fits);
   if (second != columns.end()) {
     refuse(name,
-           fmt::format("{} and {} could both be the forces: columns = [...] in the "
-                       "case file names the three that are meant, for example {}",
+           fmt::format("{} and {} could both be the forces: columns = [...] in "
+                       "[[measurement]] names the three that are meant, for example {}",
                        excerpt(first->matrix), excerpt(second->matrix),
                        excerpt(first->name)));
   }

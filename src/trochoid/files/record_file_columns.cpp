@@ -241,10 +241,11 @@ Places usual_forces(const ColumnSearch& search, const std::vector<ChannelAxis>& 
     }
     search.notes.push_back(
         {"channel_missing",
-         fmt::format("no column is named {}, for example {}_N: the fit goes without "
-                     "channel {}. The columns are {}; columns = [...] in the case file "
-                     "names the forces, and \"\" one that was not measured.",
-                     shown(axes[i]), shown(axes[i]), i + 1, all_names(search.head))});
+         fmt::format(
+             "no column is named {}, for example {}_N: the fit goes without "
+             "channel {}. The columns are {}; columns = [...] in [[measurement]] "
+             "names the forces, and \"\" one that was not measured.",
+             shown(axes[i]), shown(axes[i]), i + 1, all_names(search.head))});
   }
   return found;
 }

@@ -33,7 +33,7 @@ status: np.ndarray = swept.tables["sweep"]["status"]
 # What an answer holds has a type of its own, and not Any.
 assert_type(trochoid.simulate(case).peak_xy_N, float)
 fit = trochoid.identify(case).fits[0]
-assert_type(fit, answers.IdentifyFit)
+assert_type(fit, answers.Fit)
 assert_type(fit.coefficients.K_tc_MPa, Optional[answers.Estimate])
 assert_type(fit.coefficients["K_tc_MPa"], Optional[answers.Estimate])
 content: dicts.Identify = trochoid.identify(case).to_dict()
