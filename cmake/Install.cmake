@@ -61,6 +61,8 @@ function(trochoid_install_licences component)
       DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences COMPONENT ${component} EXCLUDE_FROM_ALL
       OPTIONAL)
   endforeach()
-  install(FILES ${PROJECT_SOURCE_DIR}/node_modules/uplot/LICENSE RENAME uplot
-    DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences COMPONENT ${component} EXCLUDE_FROM_ALL)
+  foreach(module uplot write-excel-file fflate)  # within the reports
+    install(FILES ${PROJECT_SOURCE_DIR}/node_modules/${module}/LICENSE RENAME ${module}
+      DESTINATION ${CMAKE_INSTALL_DOCDIR}/licences COMPONENT ${component} EXCLUDE_FROM_ALL)
+  endforeach()
 endfunction()

@@ -46,7 +46,7 @@ function page() {
   return `# Gallery
 
 Pages that the examples make, by \`tools/gallery.mjs\`. Each is one file that can be sent on: pictures zoom, are saved as SVG,
-PNG or CSV, and tell their values.
+PNG, CSV or Excel, and tell their values.
 
 ${Object.entries(shown).map(part).join('\n')}
 ## ${browserPage}

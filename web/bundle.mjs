@@ -59,7 +59,7 @@ const smol = `/*!\n${text(root, 'node_modules/smol-toml/LICENSE')}*/\nconst smol
 const inScript = (script) => script.replaceAll('</script', '<\\/script');
 /** Licences of all that is in the page: of the scripts, and of what was compiled into the program. */
 function licences() {
-  const scripts = ['smol-toml', 'uplot'].map((name) => [name, path.join(root, 'node_modules', name, 'LICENSE')]);
+  const scripts = ['smol-toml', 'uplot', 'write-excel-file', 'fflate'].map((name) => [name, path.join(root, 'node_modules', name, 'LICENSE')]);
   const compiled = ['libeigen3-dev', 'libfmt-dev', 'nlohmann-json3-dev', 'libtomlplusplus-dev', 'libcli11-dev', 'libboost-dev', 'libhwy-dev', 'emscripten']
     .map((name) => [name, `/usr/share/doc/${name}/copyright`]);
   const all = [['Trochoid', path.join(root, 'LICENSE')], ...scripts, ...compiled].filter(([, file]) => fs.existsSync(file));

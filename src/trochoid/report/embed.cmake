@@ -3,6 +3,8 @@
 set(text "#include <trochoid/report/page.h>\n\nnamespace trochoid::report {\n")
 foreach(name file IN ZIP_LISTS NAMES FILES)
   file(READ ${file} content)
+  # The map of a minified file stays behind, and a browser would look for it.
+  string(REGEX REPLACE "\n//# sourceMappingURL=[^\n]*" "" content "${content}")
   string(APPEND text "\nstd::string_view ${name}() {\n  return R\"page~(")
   string(APPEND text "${content}")
   string(APPEND text ")page~\";\n}\n")

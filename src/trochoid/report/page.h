@@ -10,6 +10,9 @@ std::string_view uplot_css();
 std::string_view page_css();
 std::string_view uplot_js();
 std::string_view uplot_licence();
+std::string_view excel_js();  ///< writes a workbook
+std::string_view excel_licence();
+std::string_view fflate_licence();  ///< of what excel_js contains
 
 // The scripts of page/, each needs those above it.
 std::string_view text_js();      ///< numbers, names and elements

@@ -114,8 +114,8 @@ std::string page_scripts() {
 /// No other script runs, whatever text of a file would ever stand in the page as one.
 std::string scripts_allowed() {
   static const std::string allowed =
-      fmt::format("'sha256-{}' 'sha256-{}'", sha256_base64(uplot_js()),
-                  sha256_base64(page_scripts()));
+      fmt::format("'sha256-{}' 'sha256-{}' 'sha256-{}'", sha256_base64(uplot_js()),
+                  sha256_base64(excel_js()), sha256_base64(page_scripts()));
   return allowed;
 }
 
@@ -165,6 +165,9 @@ std::string value_of(std::string_view name, const results::Answer& answer,
   if (name == "data") return data_json(answer, summary);
   if (name == "uplot") return std::string(uplot_js());
   if (name == "uplot_licence") return std::string(uplot_licence());
+  if (name == "excel") return std::string(excel_js());
+  if (name == "excel_licence") return std::string(excel_licence());
+  if (name == "fflate_licence") return std::string(fflate_licence());
   if (name == "script") return page_scripts();
   if (name == "scripts_allowed") return scripts_allowed();
   return {};

@@ -73,7 +73,8 @@ class Debian(unittest.TestCase):
 
     def test_it_names_the_licences_of_what_is_in_it(self):
         notice = (self.root / "usr/share/doc/trochoid/copyright").read_text()
-        self.assertIn("Leon Sorokin", notice)
+        for author in ("Leon Sorokin", "gitlab.com/catamphetamine", "Arjun Barrett"):
+            self.assertIn(author, notice)
         self.assertTrue((self.root / "usr/share/doc/trochoid/docs/licences.md").exists())
 
     def test_all_of_it_may_be_read_and_belongs_to_root(self):

@@ -5,7 +5,8 @@ import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
 // From the working folder, where `npm ci` puts it.
-const { chromium } = createRequire(path.join(process.cwd(), 'package.json'))('playwright-core');
+export const module = createRequire(path.join(process.cwd(), 'package.json'));
+const { chromium } = module('playwright-core');
 export const samples = process.env.SAMPLES;
 export const pictures = path.join(samples, '..', 'pictures');
 const hangs = 120_000;  // ms; for what never comes, not for a busy machine

@@ -3,16 +3,39 @@ import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { closeBrowser, open, openBrowser, samples, shown } from './pages.mjs';
+import { closeBrowser, module, open, openBrowser, samples, shown } from './pages.mjs';
+
+const { strFromU8, unzipSync } = module('fflate');
 
 before(openBrowser);
 after(closeBrowser);
+
+/** Scripts of the page as text. */
+const sourceOf = (...files) => files.map((file) =>
+  readFileSync(new URL(`../../../src/trochoid/report/page/${file}`, import.meta.url), 'utf8')).join('\n');
 
 /** What a button of a section saves. */
 async function saved(page, section, button) {
   const [file] = await Promise.all([page.waitForEvent('download'),
     page.locator(`#${section} .tools`).first().getByRole('button', { name: button }).click()]);
   return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
+}
+
+/** A workbook as rows of cells: what is in each, and whether it is text and in bold. */
+async function sheetOf(page, bytes) {
+  const parts = Object.fromEntries(Object.entries(unzipSync(bytes)).map(([name, part]) => [name, strFromU8(part)]));
+  return page.evaluate((xml) => {
+    const all = (part, names) => [...new DOMParser().parseFromString(xml[part], 'application/xml').querySelectorAll(names)];
+    const texts = all('xl/sharedStrings.xml', 'si').map((one) => one.textContent);
+    const fonts = all('xl/styles.xml', 'fonts > font').map((one) => one.querySelector('b') !== null);
+    const styles = all('xl/styles.xml', 'cellXfs > xf').map((one) => fonts[Number(one.getAttribute('fontId'))]);
+    return all('xl/worksheets/sheet1.xml', 'row').map((row) => [...row.querySelectorAll('c')].map((cell) => {
+      const text = cell.getAttribute('t') === 's';
+      const value = cell.querySelector('v')?.textContent;
+      return { at: cell.getAttribute('r'), text, bold: styles[Number(cell.getAttribute('s') ?? 0)],
+        value: text ? texts[Number(value)] : value };
+    }));
+  }, parts);
 }
 
 /** A sample with other data: of(text of its page) gives the page. */
@@ -44,6 +67,35 @@ test('curves are saved as SVG, PNG and CSV', async () => {
   assert.ok(rows.length > 1000, `${rows.length} rows`);
   assert.equal(rows[1].split(',').length, 7);
   assert.deepEqual(seen.complaints, []);
+  await close();
+});
+
+test('data are saved as a workbook of numbers', async () => {
+  const { page, seen, close } = await open('identify');
+  const csv = (await saved(page, 'measured', 'CSV')).bytes.toString().trim().split('\n');
+  const book = await saved(page, 'measured', 'Excel');
+  assert.equal(book.name, 'measured.xlsx');
+  const [head, ...rows] = await sheetOf(page, book.bytes);
+  assert.deepEqual(head.map(({ value }) => value.replace(/^(.*,.*)$/, '"$1"')).join(','), csv[0]);
+  assert.ok(head.every(({ text, bold }) => text && bold), 'the first row is text in bold');
+  assert.equal(rows.length, csv.length - 1);
+  assert.ok(rows.flat().every(({ text, bold }) => !text && !bold), 'the others are numbers');
+  rows.forEach((row, i) => {
+    const known = csv[i + 1].split(',').map((value, k) => [value, `${'ABCDEFG'[k]}${i + 2}`]).filter(([value]) => value);
+    assert.deepEqual(row.filter(({ value }) => value !== undefined).map(({ value, at }) => [Number(value), at]),
+      known.map(([value, at]) => [Number(value), at]));
+  });
+  assert.deepEqual(seen.complaints, []);
+  await close();
+});
+
+test('text stays text in a workbook, also where it looks like a formula or a number', async () => {
+  const workbookOf = new Function('writeXlsxFile', `${sourceOf('text.js', 'save.js')}\nreturn workbookOf;`)(module('write-excel-file/browser').default);
+  const book = await workbookOf('a-name-that-is-too-long-for-a-sheet', { head: ['answer', 'F [N]'], rows: [['=1+1', 1.5], ['007', -3e-12], [null, null]] });
+  const { page, close } = await open('failed');
+  const rows = await sheetOf(page, new Uint8Array(await book.arrayBuffer()));
+  const found = rows.map((row) => row.map(({ text, value }) => (text ? value : value && Number(value))).filter((value) => value !== undefined));
+  assert.deepEqual(found, [['answer', 'F [N]'], ['=1+1', 1.5], ['007', -3e-12], []]);
   await close();
 });
 
@@ -231,8 +283,7 @@ test('no word of the script stands on a page', async () => {
 });
 
 test('a frequency is drawn in its branches', () => {
-  const source = ['text.js', 'charts.js'].map((file) => readFileSync(new URL(`../../../src/trochoid/report/page/${file}`, import.meta.url), 'utf8'));
-  const { jumpsOf, turnsOver, sampledAt } = new Function(`${source.join('\n')}\nreturn { jumpsOf, turnsOver, sampledAt };`)();
+  const { jumpsOf, turnsOver, sampledAt } = new Function(`${sourceOf('text.js', 'charts.js')}\nreturn { jumpsOf, turnsOver, sampledAt };`)();
   assert.deepEqual(jumpsOf([900, 905, 911, 918, 926]), []);
   assert.deepEqual(jumpsOf([900, 905, 911, 897, 902, 908]), [2], 'back to the next lobe');
   assert.deepEqual(jumpsOf([900, 905, 911, 940, 944, 949]), [2], 'up to a branch above');

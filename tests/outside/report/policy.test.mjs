@@ -6,10 +6,13 @@ import { after, before, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { closeBrowser, open, openBrowser, samples } from './pages.mjs';
 
-test('every report contains the licence of the plots in it', () => {
+test('every report contains the licences of the libraries in it', () => {
   for (const name of readdirSync(samples)) {
     const file = path.join(samples, name, 'report.html');
-    if (existsSync(file)) assert.match(readFileSync(file, 'utf8'), /Copyright \(c\) 2022 Leon Sorokin[^]*AS IS[^]*uPlot=function/, file);
+    if (!existsSync(file)) continue;
+    const text = readFileSync(file, 'utf8');
+    assert.match(text, /Copyright \(c\) 2022 Leon Sorokin[^]*AS IS[^]*uPlot=function/, file);
+    assert.match(text, /\(c\) 2018 gitlab.com\/catamphetamine[^]*AS IS[^]*\(c\) 2026 Arjun Barrett[^]*AS IS[^]*writeXlsxFile=/, file);
   }
 });
 

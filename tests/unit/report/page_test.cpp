@@ -78,7 +78,7 @@ TEST(Page, AllowsItsOwnScriptsAndNoOther) {
   const std::size_t from = page.find("script-src ");
   ASSERT_NE(from, std::string::npos);
   const std::string allowed = page.substr(from, page.find(';', from) - from);
-  EXPECT_EQ(count(allowed, "'sha256-"), 2U);
+  EXPECT_EQ(count(allowed, "'sha256-"), 3U);
   EXPECT_NE(allowed.find(sha256_base64(last_script(page))), std::string::npos);
   EXPECT_EQ(allowed.find("unsafe"), std::string::npos);
 }
@@ -86,7 +86,8 @@ TEST(Page, AllowsItsOwnScriptsAndNoOther) {
 TEST(Page, HoldsNoTextThatBecomesMarkup) {
   const std::string page = html(sample(), summary_of(sample()));
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
-  EXPECT_EQ(count(page, "</script>"), 3U) << "data, uPlot and the page's own";
+  EXPECT_EQ(count(page, "</script>"), 4U)
+      << "data, uPlot, write-excel-file and the page's own";
   EXPECT_NE(page.find("&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt; &amp; "
                       "&quot;x&quot; \xC2\xB5 {{case}}</h1>"),
             std::string::npos);
@@ -133,8 +134,9 @@ TEST(Page, TakesItsHeadingFromTheCommandWithoutATitle) {
 }
 
 TEST(Page, HasAPlaceForEachOfItsParts) {
-  for (const auto* name : {"title", "message", "verdict", "warnings", "case", "summary",
-                           "style", "data", "uplot", "script", "version", "commit"}) {
+  for (const auto* name :
+       {"title", "message", "verdict", "warnings", "case", "summary", "style", "data",
+        "uplot", "excel", "script", "version", "commit"}) {
     EXPECT_NE(page_html().find("{{" + std::string(name) + "}}"), std::string::npos)
         << name;
   }

@@ -18,6 +18,17 @@ const csvCell = (value) => {
 };
 const csvOf = ({ head, rows }) => [head, ...rows].map((row) => row.map(csvCell).join(',')).join('\n') + '\n';
 
+/** A workbook of one sheet. Numbers are numbers and text is text, whatever language Excel speaks. */
+function workbookOf(name, { head, rows }) {
+  const cell = (value) => {
+    if (value === null || value === undefined || value === '') return null;
+    return isNumber(value) ? value : { value: String(value), type: String };
+  };
+  const title = (value) => ({ value: String(value), type: String, fontWeight: 'bold' });
+  return writeXlsxFile([head.map(title), ...rows.map((row) => row.map(cell))], { sheet: name.slice(0, 31), stickyRowsCount: 1,
+    columns: head.map((value) => ({ width: Math.max(10, String(value).length + 2) })) }).toBlob();
+}
+
 /** Least, mean and largest of every column of numbers. */
 function summaryRows({ head, rows }) {
   const columns = head.map((_, k) => rows.map((row) => row[k]).filter(isNumber));
@@ -34,7 +45,7 @@ function dataTable(data) {
   const first = table(['row', ...data.head], cells, { class: 'rows' });
   if (data.rows.length === shown_.length) return [first];
   return [table(['of all', ...data.head], summaryRows(data), { class: 'rows' }), first,
-    el('p', { class: 'small' }, `The first ${shown_.length} of ${data.rows.length} rows; CSV holds them all.`)];
+    el('p', { class: 'small' }, `The first ${shown_.length} of ${data.rows.length} rows; the CSV and Excel files contain all of them.`)];
 }
 
 /** chart: {element, size() -> [width, height], paint(c), data() -> {head, rows}, or none}. */
@@ -59,10 +70,15 @@ function tools(chart) {
     chart.paint(c);
     canvas.toBlob((blob) => download(`${name()}.png`, 'image/png', blob));
   };
+  const saveWorkbook = async () => {
+    const book = await workbookOf(name(), chart.data());
+    download(`${name()}.xlsx`, book.type, book);
+  };
   const row = el('div', { class: 'tools' }, el('span', {}, 'Save'), button('SVG', 'Save the picture as SVG', saveSvg),
     button('PNG', 'Save the picture as PNG', savePng),
     chart.data ? button('CSV', 'Save the data of the picture as CSV',
-      () => download(`${name()}.csv`, 'text/csv', csvOf(chart.data()))) : null);
+      () => download(`${name()}.csv`, 'text/csv', csvOf(chart.data()))) : null,
+    chart.data ? button('Excel', 'Save the data of the picture as an Excel workbook', saveWorkbook) : null);
   return [row, chart.data ? behind(chart) : null].filter(Boolean);
 }
 
