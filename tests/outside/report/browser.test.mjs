@@ -129,14 +129,14 @@ test('the map shows the error, the marks and the teeth', async () => {
 test('a wall says in words what it is, and what betrays runout', async () => {
   const { page, close } = await open('surface');
   const text = await page.locator('main').innerText();
-  for (const part of ['the profile that stays on the wall', 'betrays runout', 'Wall 1', 'at its free edge',
+  for (const part of ['the profile that stays on the wall', 'a sign of runout', 'Wall 1', 'at its free edge',
     'Mean surface location error', 'Deflected shapes', 'feedback = "regenerative"']) {
     assert.ok(text.includes(part), `missing: ${part}\n${text}`);
   }
   await close();
   const pulse = await open('pulse');
   const words = await pulse.page.locator('main').innerText();
-  assert.ok(words.includes('not a profile that a probe could find'));
+  assert.ok(words.includes('not a profile that a probe can find'));
   assert.ok(!words.includes('Feed marks') && !words.includes('Roughness'));
   await pulse.close();
 });
@@ -144,8 +144,8 @@ test('a wall says in words what it is, and what betrays runout', async () => {
 test('a calibration says which answer counts, and why the others differ', async () => {
   const { page, close } = await open('calibrate');
   const text = await page.locator('main').innerText();
-  for (const part of ['all readings, with runout', 'the linear answer of a real profile is wrong',
-    'only one combination is known well', 'Ten more readings at', 'not numbered', 'µm high']) {
+  for (const part of ['all readings, with runout', 'the linear answer is wrong for a real profile',
+    'only one combination is known well', 'Ten more readings at', 'no tooth numbers', 'µm high']) {
     assert.ok(text.includes(part), `missing: ${part}\n${text}`);
   }
   assert.equal(await page.locator('.fits .chosen').first().innerText(), 'all readings, with runout');
@@ -251,7 +251,7 @@ test('numbers too large for the usual margin are not cut', async () => {
 test('two answers lie in one picture, and what they say stands side by side', async () => {
   const { page, close } = await open('compared', {});
   assert.match(await page.locator('#both').textContent(), /slow,.*fast, faster:/s);
-  assert.match(await page.locator('#different').textContent(), /The two cases say the same/);
+  assert.match(await page.locator('#different').textContent(), /The two cases are equal/);
   const legend = await page.locator('#table1').textContent();
   for (const word of ['slow', 'fast', 'Dashed: fast']) assert.ok(legend.includes(word), legend);
   await close();
@@ -335,7 +335,7 @@ test('a failed answer says so first', async () => {
 test('a long table is thinned for drawing, says so, and keeps its peak', async () => {
   const { page, close } = await open('other');
   const text = await page.locator('figcaption').innerText();
-  assert.match(text, /Drawn from \d+ of 240000 rows/);
+  assert.match(text, /The picture shows \d+ of 240000 rows/);
   const values = await page.evaluate(() =>
     JSON.parse(document.getElementById('data').textContent).tables[0].columns[1].values);
   assert.ok(Math.max(...values) > 28);
@@ -457,7 +457,7 @@ test('chatter is said first, with its growth, its amplitude and its frequency', 
   assert.match(answer, /1\.153/);
   assert.match(answer, /± 72\.\d\s*µm/);
   assert.match(answer, /942\.\d+\s*Hz/);
-  assert.match(await page.locator('main').innerText(), /this one does not/);
+  assert.match(await page.locator('main').innerText(), /This one does not/);
   const rows = await page.locator('#spectrum tbody tr').allInnerTexts();
   assert.match(rows[0], /^942\.\d+.*its own$/s);
   assert.ok(rows.some((row) => /2 × spindle/.test(row)), rows.join());

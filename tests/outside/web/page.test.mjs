@@ -231,10 +231,10 @@ test('the tool is drawn while its numbers are typed', { skip }, async () => {
   const told = () => page.textContent('#drawing figcaption');
   assert.equal(await told(), 'The case has no runout.');
   await changes('runout.radial_offsets_mm', '0, 0.01');
-  assert.equal(await told(), 'Against a tool that runs true: tooth 2 +10 µm.');
+  assert.equal(await told(), 'Compared with a tool without runout: tooth 2 +10 µm.');
   assert.match(await page.inputValue('#text'), /radial_offsets_mm = \[0, 0\]/);  // it is not taken yet
   await page.keyboard.press('Tab');
-  assert.equal(await told(), 'Against a tool that runs true: tooth 2 +10 µm.');
+  assert.equal(await told(), 'Compared with a tool without runout: tooth 2 +10 µm.');
   for (const [id, text] of [['tool.diameter_mm', '12,5'], ['tool.helix_deg', '17'], ['cut.axial_depth_mm', '0.9']]) {
     await changes(id, text);
     await page.keyboard.press('Tab');

@@ -220,14 +220,14 @@ const sound = { tool: { shape: 'bull_nose', teeth: 4, diameter_mm: 10, corner_ra
 test('the tool is drawn as its tables say', () => {
   const asked = noPage();
   const of = (given) => toolPicture(tablesDrawn(given));
-  assert.equal(of(sound).told, 'Against a tool that runs true: tooth 2 +10 µm.');
+  assert.equal(of(sound).told, 'Compared with a tool without runout: tooth 2 +10 µm.');
   assert.equal(of({ tool: sound.tool }).told, 'The case has no runout.');
-  assert.equal(of({ ...sound, runout: { radial_offsets_mm: [0, 'a', -0.01] } }).told, 'Against a tool that runs true: tooth 3 −10 µm.');
-  assert.equal(of({ ...sound, runout: { axial_offsets_in: [0, 0, 0.001, 0] } }).told, 'Against a tool that runs true: tooth 3 +25.4 µm deeper.');
+  assert.equal(of({ ...sound, runout: { radial_offsets_mm: [0, 'a', -0.01] } }).told, 'Compared with a tool without runout: tooth 3 −10 µm.');
+  assert.equal(of({ ...sound, runout: { axial_offsets_in: [0, 0, 0.001, 0] } }).told, 'Compared with a tool without runout: tooth 3 +25.4 µm deeper.');
   assert.deepEqual(of({ ...sound, runout: { eccentricity_mm: 0.01 } }).data().rows.map(([, , out]) => out.toFixed(1)), ['10.0', '0.0', '-10.0', '-0.0']);
-  assert.equal(of({ ...sound, runout: { eccentricity_mm: 0.01 } }).told, 'Against a tool that runs true: tooth 1 +10 µm; tooth 3 −10 µm.');
+  assert.equal(of({ ...sound, runout: { eccentricity_mm: 0.01 } }).told, 'Compared with a tool without runout: tooth 1 +10 µm; tooth 3 −10 µm.');
   assert.equal(of({ tool: { ...sound.tool, teeth: 16 }, runout: { eccentricity_mm: 0.01, tilt_deg: 0.01 } }).told,
-               'Against a tool that runs true: −10 µm (tooth 9) to +10 µm (tooth 1); −0.698 µm (tooth 9) to +0.698 µm (tooth 1) deeper.');
+               'Compared with a tool without runout: −10 µm (tooth 9) to +10 µm (tooth 1); −0.698 µm (tooth 9) to +0.698 µm (tooth 1) deeper.');
   const texts = (given) => painted(of(given), 800).texts;
   assert.ok(['1', '4', 'a_p', 'from below,', 'offsets exaggerated', 'along the feed'].every((one) => texts(sound).includes(one)));
   assert.ok(!texts(sound).includes('depths exaggerated'));

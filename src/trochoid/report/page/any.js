@@ -53,5 +53,5 @@ function firstRows(t, { most = rowsShown, digits = 6 } = {}) {
       number(column.values[i], digits))));
   return [table(columns.map((column) => breakable(column.name)), rows, { class: 'rows' }),
     t.rows > count ? el('p', { class: 'small' },
-      `The first ${count} of ${t.rows} rows; all are in ${t.file}.`) : null];
+      `The first ${count} of ${t.rows} rows. All rows are in ${t.file}.`) : null];
 }

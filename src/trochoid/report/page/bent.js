@@ -72,7 +72,7 @@ function bentSection(report) {
   const part = section('bent', 'Deflected shapes of cutter and wall', 'Deflection',
     prose('Seen along the feed, at the spindle angle of the largest force across the wall: ',
       el('b', {}, `${number(bent.F_normal_N, 4)}\u00a0N at ${number(((bent.angle_deg % 360) + 360) % 360, 4)}°`),
-      `. ${sentence(how.join(', '))}. Bodies to scale, their deflection enlarged; broken lines: undeflected.`),
+      `. ${sentence(how.join(', '))}. The bodies are to scale, their deflection is enlarged. Broken lines: without deflection.`),
     chart.element);
   return { part, draw: () => chart.resize() };
 }
@@ -96,7 +96,7 @@ function paintBent(c, width, height, { bodies, bent, largest }) {
   const left = wide ? 0.63 * width : 46;
   const top = wide ? 34 : bottom + 40;
   const frame = { left, top, width: width - left - 14, height: height - top - 46, x: [0, 1.08 * 1000 * largest],
-    y: [low, high], xLabel: 'deflection away from one another [µm]', yLabel: '' };
+    y: [low, high], xLabel: 'deflection of each away from the other [µm]', yLabel: '' };
   deflectionLines(c, frame, bodies);
 }
 

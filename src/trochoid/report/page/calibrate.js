@@ -57,7 +57,7 @@ function calibrateLead(report, readings, keys) {
     const width = half(entry);
     return { label: [symbol(name), ` ${meanings[name] || ''}`], value: measured(entry?.value, width), unit,
       note: isNumber(width) ? `95 %: ± ${measured(width, width)} (${
-        number(100 * Math.abs(width / entry.value), 2)} %)` : 'no interval: no readings to spare' };
+        number(100 * Math.abs(width / entry.value), 2)} %)` : 'no interval: too few readings' };
   };
   return [
     tiles([...keys.map(tile),
@@ -71,7 +71,7 @@ function calibrateLead(report, readings, keys) {
       isNumber(result.runout?.eccentricity_mm) && { label: 'Runout',
         value: measured(micro(result.runout.eccentricity_mm), micro(normalInterval * result.runout.eccentricity_se_mm)),
         unit: 'µm', note: `± ${number(micro(normalInterval * result.runout.eccentricity_se_mm), 2)} µm${
-          report.said.runout_seen ? ', off centre' : ': none stands out'}` },
+          report.said.runout_seen ? ', off centre' : ': no runout stands out'}` },
     ]),
     ...verdict(result, readings),
   ];
@@ -89,7 +89,7 @@ function verdict(result, readings) {
   const visible = 0.02;
   const far = others.filter((other) => changeOf(other, chosen).some((d) => Math.abs(d) > visible));
   if (!far.length) {
-    return [prose(el('b', {}, 'All readings of the profile agree'), ` within ${100 * visible} %.`)];
+    return [prose(el('b', {}, 'All ways to read the profile agree'), ` within ${100 * visible} %.`)];
   }
   const names = Object.keys(result.coefficients).map((key) => nameAndUnit(key).name);
   const items = alike(far).map(({ of, names: also }) => {
@@ -97,8 +97,8 @@ function verdict(result, readings) {
     return el('li', {}, el('b', {}, sentence(also.join('; the same numbers: '))), ': ', symbol(names[0]), ` ${percent(change[0])}, `,
       symbol(names[1]), ` ${percent(change[1])}. `, whyDifferent(of, chosen, result));
   });
-  return [prose('The numbers are those of ', el('b', {}, chosen.name), '. Read in other ways, the same ' +
-    'profile gives other coefficients:'), el('ul', { class: 'reasons plain' }, items)];
+  return [prose('The numbers come from ', el('b', {}, chosen.name), '. Other ways to read the same profile give other ' +
+    'coefficients:'), el('ul', { class: 'reasons plain' }, items)];
 }
 
 /** Answers that give the same numbers, told once. */
@@ -113,35 +113,35 @@ function alike(list) {
 
 function whyDifferent(other, chosen, result) {
   if (other.model === 'imprint' && chosen.model === 'envelope') {
-    return 'The linear answer takes each point of the wall for the mark of one tooth. On a real wall the ' +
-      'cutter springs back and cuts part of it away later, so the linear answer of a real profile is wrong.';
+    return 'The linear answer assumes that each point of the wall is the mark of one tooth. On a real wall the ' +
+      'cutter springs back and later cuts a part of this mark away. So the linear answer is wrong for a real profile.';
   }
   if (other.model === 'envelope' && chosen.model === 'imprint') {
-    return 'A wall that was really machined is the envelope of many marks: if these readings come from one, ' +
+    return 'A machined wall is the envelope of many marks. If these readings come from a machined wall, ' +
       'set model = "envelope".';
   }
   if (other.feedback && other.feedback !== 'none' && result.feedback === 'none') {
-    const counts = 'It counts that the deflection makes the cut smaller';
-    if (result.with_runout) return `${counts}, but no runout.`;
+    const counts = 'It includes that the deflection makes the cut smaller';
+    if (result.with_runout) return `${counts}, but it has no runout.`;
     if (other.rms_mm > 1.5 * chosen.rms_mm) {
-      return `${counts}, and fits much worse: ${fixed(micro(other.rms_mm), 3)} against ${
+      return `${counts}, but it fits much worse: ${fixed(micro(other.rms_mm), 3)} against ${
         fixed(micro(chosen.rms_mm), 3)} µm rms. The readings speak against it.`;
     }
-    return `${counts}: on a wall that deflects by a visible fraction of the radial depth, set feedback in the case.`;
+    return `${counts}. If the wall deflects by a visible fraction of the radial depth, set feedback in the case.`;
   }
   if (result.with_runout) {
-    return 'It fits the means only, and the mean of a real wall is not free of runout.';
+    return 'It fits the means only, and runout changes the mean of a real wall.';
   }
   if (!isNumber(other.eccentricity_mm)) return '';
-  const counts = 'It counts runout, fitted along with the coefficients';
+  const counts = 'It fits the runout together with the coefficients';
   return chosen.feedback === 'none' ? `${counts}.` :
-    `${counts}, but no feedback; the mean of a real wall is not free of runout.`;
+    `${counts}, but it has no feedback. Runout changes the mean of a real wall.`;
 }
 
 function combinationPart(result, keys) {
   const { combination } = result;
   const { value, low, high } = combination.value_MPa || {};
-  return section('combination', 'What is known all the same', 'Known',
+  return section('combination', 'What is still known', 'Known',
     prose('The two coefficients cannot be determined separately, but one combination of them is known: ', el('b', {},
       `${number(combination.K_tc_weight, 3)} `, symbol(nameAndUnit(keys[0] || 'K_tc').name),
       ` + ${number(combination.K_rc_weight, 3)} `, symbol(nameAndUnit(keys[1] || 'K_rc').name),
@@ -226,16 +226,15 @@ function meansSection(report, readings) {
         values: curve.values.map((v, k) => micro(mean[group.rows[k]]) - v) })) },
     ], xOf(group));
   };
-  const text = tall ? 'Means over whole turns of the feed at each height, and what every way to read ' +
-    'the profile makes of them, the answer that counts first.' : 'Measured means along the feed, and what every way to ' +
-    'read them makes of them, the answer that counts first.';
+  const text = `${tall ? 'The points are means over whole turns of the feed at each height.' : 'The points are measured means along the feed.'} ` +
+    `Each curve is one way to read the profile.${fits.some((fit) => fit.chosen) ? ' The first curve is the answer that counts.' : ''}`;
   const place = numbered ? 'Mean' : tall ? 'Travel [mm]' : 'Height [mm]';
   chart.controls.append(...[choice(place, groups.map((group) => ({ value: group,
     text: number(group.value, 5) })), state.group, draw)].filter(Boolean));
   const part = section('means', 'Measured and fitted', 'Fit', prose(text, !report.result.with_runout ? null :
-    fits.some((fit) => fit.chosen) ? ' The answer that counts, with runout, is a fit to single readings, here as their ' +
-      'means: see what it leaves of each below.' :
-      ' The answer that counts, with runout, is a fit to single readings and not drawn here: see below what it leaves.'),
+    fits.some((fit) => fit.chosen) ? ' The answer that counts has runout and is a fit to single readings. Its curve shows their ' +
+      'means. The residuals of the single readings are below.' :
+      ' The answer that counts has runout and is a fit to single readings. It is not drawn here. Its residuals are below.'),
   chart.element);
   return { part, draw: () => draw() };
 }
@@ -268,9 +267,9 @@ function readingResiduals(report) {
     .filter(Boolean));
   const joint = isNumber(report.result.runout?.eccentricity_mm);
   const part = section('residuals', 'Residuals: what stays unexplained', 'Residuals',
-    prose('Every reading less what the ', joint ? 'fit with runout' : 'chosen answer', ' expects there. ' +
-      'Only noise should be left: a slope or a bow over the height tells of a datum or of a wrong ' +
-      'stiffness, teeth that lie apart tell of runout', joint ? ' of another kind than off centre.' : '.'),
+    prose('Every reading minus the value of the ', joint ? 'fit with runout' : 'chosen answer', ' there. ' +
+      'Only noise should be left. A slope or a bow over the height is a sign of a wrong datum or a wrong stiffness. ' +
+      'Teeth that lie apart are a sign of runout', joint ? ' that is not an eccentricity.' : '.'),
     chart.element);
   return { part, draw: () => draw(start) };
 }
@@ -302,8 +301,8 @@ function answersTable(result, readings, keys) {
   const noted = readings.filter(({ message }) => message);
   const best = readings.findIndex(({ chosen }) => chosen);
   return section('answers', 'The answers side by side', 'Answers',
-    prose('The same readings, understood in every way', best >= 0 && answered.length ?
-      ['; the shaded column is the one that counts, ', el('b', {}, readings[best].name), '.'] : '.'),
+    prose('One column for each way to read the same readings.', best >= 0 && answered.length ?
+      [' The shaded column counts: ', el('b', {}, readings[best].name), '.'] : null),
     table(['± 95 %', ...readings.map(({ name }) => name)], rows,
       { class: 'fits', chosen: best >= 0 && answered.length ? 1 + best : undefined }),
     noted.length ? el('ul', { class: 'reasons' }, noted.map(({ name, message }) =>

@@ -16,13 +16,14 @@ function explanationsPart(result, keys) {
   }), isNumber(one.eccentricity_mm) ? fixed(micro(one.eccentricity_mm), 3) : missing, fixed(micro(one.rms_mm), 3)]);
   const { own_mm: own, shared_mm: shared } = result.scatter || {};
   return section('explanations', 'How the readings may have come about', 'Explanations',
-    list.length > 1 ? prose('What besides the cutting may be in the readings, likeliest first: a constant offset of them all, a tilt or a curvature over the height, ' +
-      'and a deflection that changes the chip (feedback). The answer is the mean over all of them; datum and residuals on this page are from the likeliest one.') : null,
+    list.length > 1 ? prose('The readings may contain more than the cutting: a constant offset, a tilt or a curvature over the height, ' +
+      'or a deflection that changes the chip (feedback). Each row is one explanation, the most probable first. The answer is the mean over all ' +
+      'explanations. Datum and residuals on this page come from the most probable one.') : null,
     list.length > 1 ? table(['form', 'probability', ...keys.map((key) => [symbol(nameAndUnit(key).name),
       el('small', {}, nameAndUnit(key).unit)]), 'runout, µm', 'left, µm rms'], rows, { class: 'fits' }) : null,
-    isNumber(own) ? prose(`A reading scatters by ${fixed(micro(own), 2)} µm alone`, isNumber(shared) && shared > 0 ?
-      ` and by ${fixed(micro(shared), 2)} µm together with the readings of its height or place.` : '.') : null,
-    out.length ? prose(`${out.length} reading${out.length > 1 ? 's were' : ' was'} left out as far off: `,
+    isNumber(own) ? prose(`Each reading scatters by ${fixed(micro(own), 2)} µm`, isNumber(shared) && shared > 0 ?
+      `. All readings of one height or place also scatter together by ${fixed(micro(shared), 2)} µm.` : '.') : null,
+    out.length ? prose(`${out.length} reading${out.length > 1 ? 's were' : ' was'} left out because of a large error: `,
       out.slice(0, 6).map((one) => `no. ${one.reading} (${number(micro(one.off_mm), 3)} µm)`).join(', '),
       out.length > 6 ? ', ...' : '', '.') : null);
 }
@@ -42,10 +43,10 @@ function runoutPart({ result, said }) {
       el('b', {}, `${measured(micro(runout.eccentricity_mm), width)} ± ${measured(width, width)} µm`),
       ' off its centre', turn < 180 ? [', at ', el('b', {}, `${measured(runout.angle_deg, turn)} ± ${measured(turn, turn)}°`),
         ' from the tip of tooth 1 towards tooth 2'] : ', at an angle that is not known', ' (eccentricity, 95 %).', isNumber(pitch) && turn < 180 ?
-        ` As the teeth of the readings are not numbered, the angle may as well be any multiple of ${
-          number(pitch)}° further.` : ''),
-    prose(`The fit leaves ${fixed(micro(runout.rms_mm), 3)} µm rms of all readings with runout and ${
-      fixed(micro(runout.rms_without_mm), 3)} µm without`, less >= 1 ? `: ${number(less, 2)} % less.` : '.'));
+        ` The readings have no tooth numbers. So the angle may also be larger by any multiple of ${
+          number(pitch)}°.` : ''),
+    prose(`The residual of all readings is ${fixed(micro(runout.rms_mm), 3)} µm rms with runout and ${
+      fixed(micro(runout.rms_without_mm), 3)} µm rms without`, less >= 1 ? `: ${number(less, 2)} % less.` : '.'));
 }
 
 /** What ten more readings at each height would give. */
@@ -64,10 +65,10 @@ function adviceSection(result, keys, fitted) {
   const series = keys.map((key, k) => ({ name: symbol(nameAndUnit(key).name), values: gains[k],
     color: seriesColor(k), width: 1.8, points: 5, dash: k ? [6, 3] : undefined }));
   const part = section('advice', 'Where further readings would help', 'Advice',
-    prose('Ten more readings at ', el('b', {}, `${number(best.height_mm, 3)} mm`), ' above the tip would do most: ' +
-      `in the fit to the means (${readingName(result.model, result.feedback)}) the standard error of `, symbol(nameAndUnit(keys[0]).name), ` would fall from ${number(now[0], 3)} to ${
+    prose('Ten more readings at ', el('b', {}, `${number(best.height_mm, 3)} mm`), ' above the tip would help most. ' +
+      `In the fit to the means (${readingName(result.model, result.feedback)}) the standard error of `, symbol(nameAndUnit(keys[0]).name), ` would fall from ${number(now[0], 3)} to ${
         number(best[`se_${keys[0]}`], 3)} MPa (${number(gain[0], 2)} % less). `, gain[0] < 10 ?
-        'That is little: heights are covered well, and only many more readings, or a more compliant wall, ' +
+        'That is little, because the readings cover the heights well. Only many more readings or a more compliant wall ' +
         'would tell more.' : ''), sorted.length > 2 ? chart.element : null);
   const panel = { label: 'standard error less by', unit: '%', height: 170, series };
   return { part, draw: sorted.length > 2 ? () => chart.draw([panel]) : undefined };
@@ -91,5 +92,5 @@ function datumPart(result) {
       sentence(parts.join(', '))) : null;
   });
   return section('datum', 'Datum of the readings', 'Datum',
-    prose('Estimated along with the coefficients (95 %) and taken off:'), el('ul', { class: 'reasons' }, files));
+    prose('Estimated together with the coefficients (95 %) and subtracted from the readings:'), el('ul', { class: 'reasons' }, files));
 }

@@ -32,7 +32,7 @@ function channelCurves(report, fit) {
   chart.controls.append(...[choice('Run', runs.map((r) => ({ value: r, text: number(r) })), state.run,
     (run) => { state.run = run; redraw(); })].filter(Boolean));
   return [{ part: section('measured', 'What the channels read, and the fit', 'Channels',
-    prose('Grey is what was measured, the coloured line what the fit computes.'), chart.element), draw: redraw }];
+    prose('Grey: measured. Coloured: computed by the fit.'), chart.element), draw: redraw }];
 }
 
 /** Measured and fitted means, cut by cut. */
@@ -49,7 +49,7 @@ function channelMeans(report, fit) {
     })]);
   return section('means', 'Means, measured and fitted', 'Means',
     prose('One row per cut. The small number is measured minus fitted. A difference that bends over the feed means ' +
-      'that teeth leave the cut at small feeds.'),
+      'that some teeth do not cut at small feeds.'),
     table(['cut', ...channels.flatMap((channel) => [`${channel.axis}, ${channel.unit}`, 'fitted'])], rows));
 }
 
@@ -64,7 +64,7 @@ function knownTogether(fit) {
     [el('b', {}, measured(value, width)), ` ${unit}`], `± ${measured(width, width)}`];
   });
   return sums.length ? section('combination', 'What is known together', 'Together',
-    prose('These coefficients are not known one by one. Their sums are:'),
+    prose('The single coefficients are not known. These sums of them are known:'),
     table(['sum', 'value', '95 %'], sums)) : null;
 }
 

@@ -15,8 +15,8 @@ function comparePage(report) {
 }
 
 function differentInputs({ inputs }, names) {
-  const text = inputs.length ? 'Keys of the two cases as they were understood, where they differ.'
-    : 'The two cases say the same.';
+  const text = inputs.length ? 'Keys whose values differ between the two cases, with every default filled in.'
+    : 'The two cases are equal.';
   return section('different', 'What was asked differently', 'Inputs that differ', prose(text), inputs.length ?
     table(['', ...names], inputs.map(({ key, a, b }) => [key, a || missing, b || missing])) : null);
 }
@@ -31,10 +31,10 @@ function differentNumbers({ numbers }, names) {
   const different = numbers.filter((n) => n.differs);
   const alike = numbers.filter((n) => !n.differs);
   return section('numbers', 'What came out differently', 'Numbers',
-    prose('Numbers of the two results that differ by more than 0.1 %.', known ? ' Those that are known with a ' +
-      'standard error are apart by so many of the standard errors of the difference: up to 2 is chance.' : null),
+    prose('Numbers of the two results that differ by more than 0.1 %.', known ? ' If a number has a standard ' +
+      'error, the last column is the difference divided by its standard error. Up to 2 it may be chance.' : null),
     different.length ? table(head, different.map(row)) : prose('None does.'),
-    alike.length ? el('details', {}, el('summary', {}, `Show the ${alike.length} that are alike`),
+    alike.length ? el('details', {}, el('summary', {}, `Show the ${alike.length} equal ones`),
       table(head, alike.map(row))) : null);
 }
 
@@ -61,7 +61,7 @@ function curvesOfBoth(a, b, names, i) {
   const file = a.file.slice(3);
   const x = nameAndUnit(first.name);
   const chart = figure({ key: first.name, x: first.values, label: words(x.name), unit: x.unit,
-    caption: `Dashed: ${names[1]}, at the places of ${names[0]}. ${zoomHint}` });
+    caption: `Dashed: ${names[1]}, interpolated at the points of ${names[0]}. ${zoomHint}` });
   const panels = [...byUnit].map(([unit, series]) => ({ label: '', unit, height: 200, series }));
   if (!panels.length) return null;
   return { part: section(`table${i + 1}`, file, file, chart.element), draw: () => chart.draw(panels) };

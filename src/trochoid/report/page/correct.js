@@ -41,7 +41,7 @@ function correctLead({ before, after, command, reduction, controller }) {
     controller && { label: 'Under the controller', value: inPercent(controller.difference_running),
       unit: '%', note: controller.fault ? `fault: ${controller.fault}` :
         isNumber(controller.turns_to_3_percent) &&
-        `below 3 % from running turn ${controller.turns_to_3_percent} on` },
+        `below 3 % after ${controller.turns_to_3_percent} running turns` },
   ])];
 }
 
@@ -95,10 +95,10 @@ function flutesSection({ before, after }) {
   readoutOf(chart, 'Point at a bar for its value.', ([x, y]) => bars.find((bar) =>
     x >= bar.x[0] && x <= bar.x[1] && y >= bar.y[0] && y <= bar.y[1])?.text);
   const part = section('flutes', 'Flutes before and after', 'Flutes',
-    prose('Left bar: without the command. Right bar: with it. The peaks are those of the whole ' +
-      'force on the tool while a flute cuts; the chip area is what the flute takes at its tip. ' +
-      'Equal peaks are not equal chip loads.' + (kinds.some(({ alone }) => alone) ? ' Its own |Fy| is that of ' +
-      'this flute alone, which no dynamometer shows while several cut at once.' : '')),
+    prose('Left bar: without the command. Right bar: with it. A peak is the largest total force on the tool ' +
+      'while the flute cuts. The chip area is the material that the flute cuts at its tip. ' +
+      'Equal peaks are not equal chip loads.' + (kinds.some(({ alone }) => alone) ? ' "Its own |Fy|" is the force of ' +
+      'this flute alone. A dynamometer cannot show it while several flutes cut at once.' : '')),
     chart.element,
     table(['flute', ...kinds.flatMap(({ name }, k) => [k === 0 ? '|Fy| before, N' :
       name.replace(/,(?=[^,]*$)/, ' before,'), 'after'])], rows), ownForces(after, before));
@@ -123,8 +123,8 @@ function correctForcesSection(report) {
       name: when, values: columnNamed(t, `F${axis}_${when}_N`), color, dash, width: 1.8 })) }))
     .filter((panel) => panel.series.some((s) => s.values?.some((v) => v)));
   const part = section('forces', 'Forces over a turn', 'Forces',
-    prose('Force on the tool in the last turn that was computed, with tool, table and actuator ' +
-      'moving, without and with the command.'), chart.element);
+    prose('Force on the tool in the last computed turn, with tool, table and actuator in motion. ' +
+      'Before: without the command. After: with the command.'), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
 
@@ -147,11 +147,11 @@ function commandSection(report) {
   const { table_deviation_um: deviation, spindle_rpm: rpm } = report.result.command;
   const shift = report.result.runout?.angle_offset_deg;
   const part = section('command', 'Command and table over a turn', 'Command',
-    prose('What the actuator is told (feedforward), what the table should do, and what it does under the cutting force',
-      isNumber(deviation) ? `: up to ${number(deviation, 2)} µm from what it should. ` : '. ',
-      'command.csv and command.h hold the command', isNumber(rpm) ? `, which is made for ${number(rpm)} rpm: at another speed it is wrong` : '', '.',
+    prose('The command to the actuator (feedforward), the motion that the table should make, and the motion that it makes under the cutting force. ',
+      isNumber(deviation) ? `The table is at most ${number(deviation, 2)} µm off. ` : '',
+      'command.csv and command.h contain the command.', isNumber(rpm) ? ` It is made for ${number(rpm)} rpm. At another speed it is wrong.` : '',
       isNumber(shift) && shift !== 0 ? [' A recorded angle plus ', el('b', {}, `${number(shift, 3)}°`),
-        ' is φ; command.h has that as trochoid_command_offset_deg.'] : null), chart.element);
+        ' is φ. In command.h this number is trochoid_command_offset_deg.'] : null), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
 
@@ -172,8 +172,8 @@ function controllerSection(report) {
   const samples = time && figure({ key: 'time', x: time, label: 'time', unit: 's',
     caption: zoomHint + thinned(t) });
   const part = section('controller', 'The controller in the loop', 'Controller',
-    prose('The real-time core, step by step, on the model of the cut: peaks of |Fy| of each flute ' +
-      'in every turn, the gain of the command, and the command within the stroke.'),
+    prose('The real-time core runs step by step on the model of the cut. The curves are the peak of |Fy| of each flute ' +
+      'in every turn, the difference of the flutes, and the command.'),
     turns.element, samples ? samples.element : null, toolEvents(controller));
   return { part, draw: () => {
     turns.draw([{ label: 'peak of |Fy|', unit: 'N', height: 190, markers, series: peaks },
@@ -206,11 +206,11 @@ function speedsSection(report) {
   const limit = { name: 'allowed', values: x.map(() => 100 * allowed), color: '--soft',
     dash: [2, 4] };
   const part = section('speeds', 'Other speeds and other ways', 'Speeds',
-    prose('What is left of the difference at other spindle speeds, ' +
+    prose('The remaining difference of the peaks at other spindle speeds, ' +
       (report.result.max_rpm_cut === 'moving' ? 'simulated with tool, table and actuator'
-        : 'for a rigid tool') + ': each motion is ' +
-      'sized to make the peaks equal when the table follows it exactly. The command is drawn as it would have to be; ' +
-      'beyond the stroke it is cut off, and the difference is what is left then.'), chart.element,
+        : 'for a rigid tool') + '. Each motion has the size ' +
+      'that makes the peaks equal if the table follows it exactly. The lower picture shows the command that this needs. ' +
+      'Beyond the stroke the command is cut off, and the difference includes this.'), chart.element,
     table(['strategy', `highest speed for ${number(100 * allowed, 3)} %, rpm`],
       names.map((name) => [strategyNames[name], !(highest[name] > 0) ? 'none' :
         highest[name] >= x[x.length - 1] ? `${number(x[x.length - 1])} or more` : number(highest[name], 3)])));
@@ -232,10 +232,10 @@ function spindleSection(report) {
   const chart = figure({ key: 'phi', x, label: 'φ, spindle angle', unit: '°',
     caption: zoomHint + thinned(t) });
   const part = section('spindle', 'A spindle speed that changes within the turn instead',
-    'Spindle', prose(`A sine of the speed does what a sine of the table would, on a rigid cut. ` +
-      `It changes the speed by up to ${inPercent(s.speed_change)} % and asks for ` +
+    'Spindle', prose(`With a rigid tool, a sine of the spindle speed has the same effect as a sine of the table. ` +
+      `It changes the speed by up to ${inPercent(s.speed_change)} % and needs ` +
       `${number(s.torque_Nm, 3)} of ${number(s.torque_limit_Nm, 3)} N m. ` + (s.limit ?
-        `Only ${inPercent(s.part)} % of the motion is possible; the limit is ${s.limit}. ` : '') +
+        `Only ${inPercent(s.part)} % of the motion is possible. The limit is ${s.limit}. ` : '') +
       `The peaks then differ by ${inPercent(s.difference)} %.`), chart.element);
   return { part, draw: () => chart.draw([
     { label: 'speed', unit: 'rpm', height: 150, series: [{ name: '',
@@ -263,8 +263,8 @@ function wallsSection({ before, after }) {
     'where the teeth leave', number(wall.peak_to_valley_um, 3),
   number(after.walls[i].peak_to_valley_um, 3), shares(wall), shares(after.walls[i])]);
   return section('walls', 'Feed marks on the walls', 'Walls',
-    prose('Marks of the teeth on the walls beside the cutter, for a rigid tool. A table that moves ' +
-      'along the feed shifts the marks; how deep they reach is decided by the longest tooth.'),
+    prose('Marks of the teeth on the walls on both sides of the cutter, for a rigid tool. A table that moves ' +
+      'along the feed shifts the marks. The longest tooth decides how deep they are.'),
     table(['wall', 'marks before, µm', 'after', 'made by each flute before, %', 'after'], rows));
 }
 
@@ -274,13 +274,13 @@ function correctRunoutSection({ runout, axes }) {
   const nothing = (um) => (um < 1e-3 ? '0' : number(um, 3));
   const rows = [
     ['stands out by, µm (mean 0)', list(runout.radial_offsets_um)],
-    ['chip of each tooth above the feed per tooth, µm', list(runout.chip_difference_um)],
+    ['chip of each tooth minus the feed per tooth, µm', list(runout.chip_difference_um)],
     ['the command is made for, µm', list(runout.designed_for_um)],
-    runout.static_fit && ['a rigid model reads from the forces, µm',
+    runout.static_fit && ['found in the forces by a rigid model, µm',
       runout.static_fit.chip_difference_um.map((v) => measured(v.value, normalInterval * v.se)).join(', ')],
-    runout.ratio_um && ['from the ratio of the peaks, µm', list(runout.ratio_um)],
+    runout.ratio_um && ['found in the ratio of the peaks, µm', list(runout.ratio_um)],
   ].filter(Boolean);
   return section('runout', 'Runout', 'Runout', table(['', ''], rows), axes ?
-    prose(`Over the cut the chips of the teeth differ by ${number(axes.uncorrected_um, 3)} µm (root mean square) as it is, ` +
-      `by ${nothing(axes.one_axis_um)} µm with this axis at best, by ${nothing(axes.two_axes_um)} µm with a second one.`) : null);
+    prose(`The chips of the teeth differ by ${number(axes.uncorrected_um, 3)} µm (root mean square over the cut) without a command, ` +
+      `by ${nothing(axes.one_axis_um)} µm with the best command of this axis, and by ${nothing(axes.two_axes_um)} µm with a second axis.`) : null);
 }

@@ -42,23 +42,23 @@ function dynamicsLead(result) {
     { label: 'The motion', value: verdictOfMotion(result),
       note: isNumber(result.change_N)
         ? `${result.period ? `it repeats ${periodText(result)}: ` : ''}the force changes by ${number(result.change_N, 2)} N in the last of ${result.turns} turns`
-        : `${result.turns} turns; amplitudes would be those of the moment, so none are given` },
+        : `${result.turns} turns. The amplitudes still change, so none are given` },
     isNumber(result.linear_growth_per_turn) && { label: 'Floquet multiplier of a turn', value: `× ${number(result.linear_growth_per_turn, 4)}`,
-      note: `of the linearised cut; below 1 a small vibration fades${
-        isNumber(seen) ? `. The last turns of the motion: ×\u00a0${number(seen, 2)}` : ''}` },
+      note: `of the linearised cut. Below 1 a small vibration fades${
+        isNumber(seen) ? `. In the last turns of the motion: ×\u00a0${number(seen, 2)}` : ''}` },
     result.vibration && { label: 'It stays within', value: [result.vibration.x_um, result.vibration.y_um]
       .filter((v) => v > 0).map((v) => `± ${number(v, 3)}`).join(' · '), unit: 'µm',
       note: `along ${[['x', result.vibration.x_um], ['y', result.vibration.y_um]].filter(([, v]) => v > 0)
         .map(([axis]) => axis).join(' and ')}, about its middle, in the last ${result.vibration.turns} turns` },
     isNumber(result.vibration?.chatter_frequency_Hz) && { label: 'Chatter frequency',
       value: number(result.vibration.chatter_frequency_Hz, 5), unit: 'Hz',
-      note: 'the strongest line that is no harmonic of the spindle' },
+      note: 'the strongest line that is not a harmonic of the spindle' },
     forces.length && { label: forces.length > 1 ? 'Peak |Fy| of each flute' : 'Peak |Fy|',
       value: forces.slice(0, 4).join(' · ') + (forces.length > 4 ? ' …' : ''), unit: 'N',
       note: forces.length > 1 && `they differ by ${(100 * result.difference).toFixed(2)} % of the largest` },
     { label: 'Peak force in the plane of the table', value: fixed(result.peak_xy_N, 3), unit: 'N' },
     result.process_damping && { label: 'Wear land of the flanks', value: result.process_damping.wear_land_um, unit: 'µm',
-      note: 'its process damping is in; right for small vibrations' },
+      note: 'the model has its process damping, which is correct for small vibrations' },
   ].filter(Boolean));
 }
 
@@ -79,8 +79,8 @@ function flutesOfMotion(result) {
     cell(flute, 'chip_area_mm_rad', fixed(flute.chip_area_mm_rad, 4)),
     cell(flute, 'peak_chip_mm', fixed(1000 * flute.peak_chip_mm, 4))]);
   return section('flutes', 'What each flute does', 'Flutes',
-    prose(`${result.vibration ? `Peaks of the last ${result.vibration.turns} turns, and the mean of their chip areas` : 'In the last turn'}. The chip area is the chip thickness summed over the angle: equal peaks ` +
-      'of the force need not mean equal chip loads.'),
+    prose(`${result.vibration ? `Peaks of the last ${result.vibration.turns} turns, and the mean of their chip areas` : 'In the last turn'}. The chip area is the integral of the chip thickness over the angle. Equal peaks ` +
+      'of the force do not always mean equal chip loads.'),
     table(['', 'peak |Fx|, N', 'peak |Fy|, N', 'chip area, mm rad', 'thickest chip, µm'], rows,
       { class: 'fits' }));
 }
@@ -114,7 +114,7 @@ function motionForces(report) {
   const chart = figure({ key: 'angle', x, label: 'spindle angle, last turns', unit: '°',
     caption: zoomHint + thinned(t) });
   const part = section('forces', 'Force while it moves', 'Forces',
-    prose('Force on the tool in the last turns. Dashed: where the tip of a tooth passes the nominal entry angle; a tooth that is shorter, or bent away, meets its chip later.'),
+    prose('Force on the tool in the last turns. Dashed: the tip of a tooth passes the nominal entry angle. A tooth that is shorter or deflected meets its chip later.'),
     chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
@@ -139,8 +139,8 @@ function fluteForces(report) {
   const chart = figure({ key: 'flute', x, label: 'θ, immersion angle of the tip of each tooth', unit: '°',
     caption: zoomHint });
   const part = section('compare', 'The flutes laid over each other', 'Compare',
-    prose('The same force from the moment each tip passes θ = 0, up to the next tooth. Where several ' +
-      'teeth cut at once, each curve is the sum of all.'), chart.element);
+    prose('The same force, one curve per tooth: from θ = 0 of its tip to the next tooth. If several ' +
+      'teeth cut at once, each curve is the sum of their forces.'), chart.element);
   return { part, draw: () => chart.draw([
     { label: forceName('x'), unit: 'N', series: of('x') },
     { label: forceName('y'), unit: 'N', series: of('y') }]) };
@@ -168,8 +168,8 @@ function motionSection(report) {
   const chart = figure({ key: 'angle', x, label: 'spindle angle, last turns', unit: '°',
     caption: zoomHint + thinned(t) });
   const part = section('motion', 'How tool and table move', 'Motion',
-    prose('Displacements from where each would rest without forces', told ? ' and without a command' : '', ', along x (the feed) and y. The ' +
-      'table is compliant: under the cut it does not stand exactly where its actuator stands.', told ? ' The command is about its middle.' : ''),
+    prose('Displacements from the position without forces', told ? ' and without a command' : '', ', along x (the feed) and y. The ' +
+      'table is compliant: under the cutting force its position differs from the position of its actuator.', told ? ' The command is shown without its mean.' : ''),
     chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
@@ -188,8 +188,8 @@ function onceSection(report) {
   const part = section('once', 'Once per turn: the Poincaré section', 'Once per turn',
     prose('Tool minus work at the moment the tip of tooth 1 passes θ = 0. ' +
       (report.result.periodic
-        ? `A motion that repeats with every turn stands still here${report.result.period?.turns > 1 ? `; this one goes round ${number(report.result.period.turns, 3)} places` : ''}: first the transient of the start dies out.`
-        : 'A motion in steady state would stand still here; this one does not.')),
+        ? `After the transient of the start, a motion that repeats with every turn stays at one point here.${report.result.period?.turns > 1 ? ` This one visits ${number(report.result.period.turns, 3)} points in turn.` : ''}`
+        : 'A motion in steady state stays at one point here. This one does not.')),
     chart.element, scatter?.element);
   const panels = [{ label: 'x', unit: 'µm', height: 120, series: [dots('', x, '--s1')] },
     { label: 'y', unit: 'µm', height: 120, series: [dots('', y, '--s2')] }]
@@ -216,8 +216,8 @@ function spectrumSection(report) {
   const rows = vibration.lines.map((line) => [number(line.frequency_Hz, 6), number(line.x_um, 4),
     number(line.y_um, 4), isNumber(line.spindle_harmonic) ? `${line.spindle_harmonic} × spindle` : 'its own']);
   const part = section('spectrum', 'With which frequencies it vibrates', 'Spectrum',
-    prose(`Amplitude of tool minus work over the last ${vibration.turns} turns. What the cut forces ` +
-      'has harmonics of the spindle; chatter has frequencies of its own.'), chart.element,
+    prose(`Amplitude of tool minus work over the last ${vibration.turns} turns. The forced vibration ` +
+      'has harmonics of the spindle. Chatter has frequencies of its own.'), chart.element,
     table(['frequency, Hz', 'x, µm', 'y, µm', 'what it is'], rows, { class: 'fits' }));
   return { part, draw: () => chart.draw([{ label: 'amplitude', unit: 'µm', series }]) };
 }
@@ -272,8 +272,8 @@ function surfaceLocationSection(result) {
     hundredths(flute.surface_location_error_um)), hundredths(wall.surface_location_error_um)]);
   const teeth = walls[0].flutes.map((flute) => `tooth ${flute.tooth}`);
   return section('surface', 'Surface location error', 'Surface',
-    prose('By how much each tooth leaves the wall off its place, in µm, from where tool, work and tooth ' +
-      'stand at the moment the wall is made; positive where material is left. A tooth that is longer by its runout cuts so much ' +
-      'deeper, whatever moves. The tooth that reaches deepest makes the wall that remains.'),
+    prose('The error that each tooth leaves on the wall, in µm. It follows from the positions of tool, work and tooth at the moment when the tooth makes the wall. ' +
+      'Positive: material is left. A tooth that is longer because of runout cuts deeper by this length, also without any motion. ' +
+      'The tooth that reaches deepest makes the remaining wall.'),
     table(['error, µm', ...teeth, 'remains'], rows, { class: 'fits' }));
 }

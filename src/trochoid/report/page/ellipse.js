@@ -122,11 +122,11 @@ function ellipseSection(answers, keys) {
   (shown) => { state.shown = shown; chart.view = aroundRegions(shown); chart.redraw(); })].filter(Boolean));
   const [a, b] = main.pair;
   const slope = main.correlation * b.se / a.se;
-  const part = section('together', 'What is known of the two together', 'Together',
-    prose('The regions hold both coefficients with 95 %; the cross marks the interval of each alone. The ' +
+  const part = section('together', 'How well both are known together', 'Together',
+    prose('Each region contains both coefficients with a probability of 95 %. The cross marks the interval of each one alone. The ' +
       'correlation is ', el('b', {}, fixed(main.correlation, 3)), Math.abs(main.correlation) > 0.8 ? [
-      ': only one combination is known well. With ', symbol(names[0].name), ` 10 ${names[0].unit} higher, `,
-      symbol(names[1].name), ` comes out ${number(Math.abs(10 * slope), 2)} ${names[1].unit} ${
-        slope < 0 ? 'lower' : 'higher'}; never use one of them without the other.`] : '.'), chart.element);
+      ': only one combination is known well. If ', symbol(names[0].name), ` is 10 ${names[0].unit} higher, `,
+      symbol(names[1].name), ` is ${number(Math.abs(10 * slope), 2)} ${names[1].unit} ${
+        slope < 0 ? 'lower' : 'higher'}. Always use both together.`] : '.'), chart.element);
   return { part, draw: () => chart.resize() };
 }

@@ -22,13 +22,13 @@ function finishLead(t) {
   const width = micro(half(shortest.offset_mm));
   return [tiles([
     { label: 'Teeth that write differ by', value: measured(micro(-shortest.offset_mm.value), width), unit: 'µm',
-      note: writing.length > 1 ? `95 %: ± ${measured(width, width)} µm` : 'one tooth alone writes' },
+      note: writing.length > 1 ? `95 %: ± ${measured(width, width)} µm` : 'only one tooth writes' },
     { label: 'Teeth that write nothing', value: `${t.teeth.length - writing.length}`, unit: `of ${t.teeth.length}` },
     { label: 'Roughness Ra of the marks', value: fixed(t.Ra_um, 3), unit: 'µm',
       note: `with all teeth at one depth ${fixed(t.Ra_alike_um, 3)} µm` },
     { label: 'Left by the fit', value: fixed(t.rms_um, 2), unit: 'µm rms',
-      note: `the trace itself has Ra ${fixed(t.Ra_measured_um, 3)} µm` },
-    { label: 'Feed of a turn', value: measured(t.feed_mm.value, half(t.feed_mm)), unit: 'mm', note: 'as the trace has it' },
+      note: `Ra of the trace itself: ${fixed(t.Ra_measured_um, 3)} µm` },
+    { label: 'Feed of a turn', value: measured(t.feed_mm.value, half(t.feed_mm)), unit: 'mm', note: 'found in the trace' },
   ])];
 }
 
@@ -44,8 +44,8 @@ function traceSection(report, trace, index) {
   const chart = figure({ key: `trace${index}`, points: false, x: [x[0], x[x.length - 1]], unit: 'mm', label: 'along the feed',
     caption: zoomHint + thinned(all) });
   const part = section(`trace${index}`, `The trace: ${traceLine(trace)}`, 'Trace',
-    prose(`${trace.file}, less a straight line. Each tooth leaves the same mark again and again; an offset moves all of ` +
-      'its marks up or down. What is left should be noise, without anything that repeats.'), chart.element);
+    prose(`${trace.file}, minus a straight line. Each tooth leaves the same mark in every turn. Its offset moves all of ` +
+      'these marks up or down. Only noise should be left, without anything that repeats.'), chart.element);
   const draw = () => chart.draw([
     { label: 'height of the surface', unit: 'µm', height: 260, series: [
       { name: 'measured', color: '--s6', values: flat(was) },
@@ -77,8 +77,8 @@ function teethPart(t, several) {
       measured(micro(half(w.amplitude_mm)), micro(half(w.amplitude_mm)))}`,
     `${number(w.phase_deg.value, 3)}`]);
   return section(`teeth${several ? t.file : ''}`, `How far the teeth reach: ${traceLine(t)}`, 'Teeth',
-    prose(t.numbered ? 'The unequal pitch tells which tooth is which.' : 'Teeth are in their order of passage from the one ' +
-      'that reaches deepest: equal pitch does not tell which one that is.'),
+    prose(t.numbered ? 'The unequal pitch tells which tooth is which.' : 'The teeth are in their order of passage, from the deepest ' +
+      'one on. With equal pitch the trace cannot tell the number of this tooth.'),
     table([t.numbered ? 'tooth' : 'in order of passage', 'offset [µm], 95 %', 'share of the trace'], rows),
     t.feeds?.length ? table(['feed per tooth [mm]', 'Ra [µm]', 'Ra with all teeth at one depth [µm]'],
       t.feeds.map((f) => [number(f.feed_per_tooth_mm, 4), fixed(f.Ra_um, 3), fixed(f.Ra_alike_um, 3)])) : null,

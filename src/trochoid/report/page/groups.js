@@ -35,8 +35,8 @@ function groupsSection(groups) {
   const chart = keys.length ? figure({ key: 'group', x, points: true, whole: true,
     label: `group: ${groups.map((one, i) => `${i + 1} ${groupName(one)}`).join(', ')}` }) : null;
   const part = section('groups', 'The coefficients over the groups', 'Groups',
-    prose('Records of one group share coefficients, all records share the runout. As a rule ' +
-      'wear of the flank raises the edge coefficients most. A change is named where the 95 % intervals lie apart.'),
+    prose('The records of a group have the same coefficients. All records have the same runout. Flank wear usually ' +
+      'raises the edge coefficients most. A change is named where the 95 % intervals do not overlap.'),
     table(['± 95 %', ...groups.map((one) => [groupName(one),
       el('small', {}, one.files.map((file) => file.split('/').pop()).join(', '))])], groupRows(groups), { class: 'fits' }),
     chart?.element);

@@ -12,9 +12,9 @@ function identifyPage(report) {
   const curves = measuredOverAngle(report, {
     heading: 'Measured and fitted force', short: 'Forces', model: best?.chip_model,
     bandOf: (model) => fits.find((fit) => fit.chip_model === model)?.band_harmonics || 0,
-    text: 'Force on the tool. Grey is what was measured, the coloured line what the fit computes.' +
-      (result.curves === 'mean turn' ? ' The records are long: this is the mean of all their turns ' +
-        '(identify --curves keeps every sample).' : ''),
+    text: 'Force on the tool. Grey: measured. Coloured: computed by the fit.' +
+      (result.curves === 'mean turn' ? ' The records are long, so the curves are the mean of all turns. ' +
+        'identify --curves keeps every sample.' : ''),
   });
   return [
     { lead: best ? headline(best, fits, trust) : null },
@@ -148,8 +148,8 @@ function coefficientSection(fit, trust, group) {
       'From the fit with the chip model ', el('b', {}, modelName(fit.chip_model)),
       fit.lookback ? ` (looking back at ${fit.lookback === 'all' ? 'all earlier teeth' :
         'the previous tooth only'})` : '', '. ',
-      fit.interval_widening > 1.2 ? `The intervals are ${number(fit.interval_widening, 2)} times as wide as white noise ` +
-        'alone would make them: what the fit leaves holds more.' : null),
+      fit.interval_widening > 1.2 ? `The intervals are ${number(fit.interval_widening, 2)} times as wide as for white noise, ` +
+        'because the residual is more than white noise.' : null),
     table(['', 'value', '95 % interval', 'how well it is known, 95 %'], rows, { class: 'coefficients' }),
     offsetTable(fit));
 }
@@ -184,14 +184,14 @@ function clockingSection(clocking) {
     const part = clocking[key];
     if (part) {
       rows.push([name, amount(part.eccentricity_mm, 1000, 'µm'),
-        `at ${number(part.angle_deg, 3)}° from tooth 1${key === 'holder' ? ' as it stood before' : ''}`]);
+        `at ${number(part.angle_deg, 3)}° from tooth 1${key === 'holder' ? ' in its old position' : ''}`]);
     }
   }
-  const advice = isNumber(clocking.best_turn_deg) ? prose('Turned by ',
-    el('b', {}, `${number(clocking.best_turn_deg, 3)}°`), ' in its holder from where it is now (positive from tooth 1 ' +
-    `towards tooth 2), the tool runs out least: ${number(1000 * clocking.least_eccentricity_mm, 2)} µm remain.`) : null;
+  const advice = isNumber(clocking.best_turn_deg) ? prose('To get the least runout, turn the tool in its holder by ',
+    el('b', {}, `${number(clocking.best_turn_deg, 3)}°`), ' from its position now (positive from tooth 1 ' +
+    `towards tooth 2). Then ${number(1000 * clocking.least_eccentricity_mm, 2)} µm remain.`) : null;
   return section('clocking', 'At the machine', 'Dial gauge',
-    prose('What a dial gauge would read at a smooth shank at the height of the cut.'),
+    prose('These are the readings of a dial gauge on a smooth shank at the height of the cut.'),
     table(['', '', ''], rows), advice);
 }
 
@@ -229,14 +229,14 @@ function fitsSection(fits, best) {
   const noted = fits.filter((fit) => (fit.ok === false && fit.message) ||
     Object.keys(fit.identifiable || {}).some((key) => reasonOf(fit, key)));
   return section('fits', 'The chip models side by side', 'Fits',
-    prose('The same record, fitted with every chip model. Where tools have runout, simple models put the ' +
-      'runout into the coefficients.'),
+    prose('Each column is a fit of the same record with another chip model. If the tool has runout, a simple model puts ' +
+      'the effect of the runout into the coefficients.'),
     answered ? table(['± 95 %', ...fits.map((fit) => modelName(fit.chip_model))], rows,
       { class: 'fits', chosen: best ? 1 + fits.indexOf(best) : undefined }) : null,
     noted.length ? el('ul', { class: 'reasons' }, noted.map(reasonsOf)) : null,
     answered ? el('p', { class: 'small' }, '± is the half width of the 95 % confidence interval. Residual: ' +
-      'square root of the mean of |ΔF|², ΔF taken as a vector', fits.some((fit) => fit.band_harmonics > 0) ?
-      ', of the harmonics that are fitted; unexplained: of those of the force.' : ' over all samples.') : null);
+      'square root of the mean of |ΔF|², where ΔF is a vector', fits.some((fit) => fit.band_harmonics > 0) ?
+      ', over the fitted harmonics. Unexplained: the residual as a fraction of the same harmonics of the force.' : ', over all samples.') : null);
 }
 
 /** Why a fit has no answer, and which quantities it could not tell apart, by reason. */
@@ -261,14 +261,14 @@ const formNames = { none: 'no runout', fixed: 'as given', offsets: 'radial offse
 function formSection(form) {
   if (!form?.why) return null;
   const tried = [form.tried ?? []].flat().filter((one) => isNumber(one.rms_N));
-  const by = form.decided_by === 'record' ? 'Decided by the record: ' : 'As the case asks. ';
+  const by = form.decided_by === 'record' ? 'The record decided: ' : 'The case asks for this form. ';
   return section('form', 'Which form of runout', 'Runout form',
     prose(by, form.decided_by === 'record' ? form.why : sentence(form.why), '.'),
     tried.length > 1 ? table(['form', 'residual, N rms', 'evidence against it'],
       tried.map((one) => [formNames[one.form] || one.form, fixed(one.rms_N, 4),
         one.form === form.better ? 'none' : number(one.excess, 3)]), { class: 'forms' }) : null,
-    tried.length > 1 ? el('p', { class: 'small' }, 'Evidence: by how much worse it would foretell further turns, ' +
-      'in units of what one more unknown explains by chance. Below 4 it is none.') : null);
+    tried.length > 1 ? el('p', { class: 'small' }, 'Evidence: how much worse this form predicts further turns. ' +
+      'The unit is what one more unknown explains by chance. Below 4 there is no evidence.') : null);
 }
 
 /** How the answer depends on which harmonics are fitted, and on the dynamometer. */
@@ -279,19 +279,19 @@ function viewsSection(views, best) {
     .map(([axis, one]) => `${number(one.frequency_Hz, 3)} Hz in ${axis} (damping ratio ${number(one.damping_ratio, 2)})`);
   return section('views', 'How far the answer depends on the dynamometer', 'Dynamometer',
     prose(found.length ?
-      `The dynamometer rings at ${found.join(', ')}: this is in the model of the first row, which counts.` :
-      'What the fit leaves repeats turn by turn, and no resonance explains it: so every harmonic is fitted, with the intervals that this deserves.'),
+      `The dynamometer rings at ${found.join(', ')}. The model of the first row contains this resonance, and the first row counts.` :
+      'The residual repeats every turn, and no resonance explains it. So the fit uses every harmonic, and its intervals take the repetition into account.'),
     table(['harmonics', symbol(nameAndUnit(key).name), '95 % interval', 'unexplained of all'],
       views.map((view) => {
         const width = half(view[key]);
         return [`${view.band_harmonics ? `mean and first ${view.band_harmonics}` : 'all'}${
-          view.resonance ? ', through the resonances' : ''}`,
+          view.resonance ? ', with the resonances' : ''}`,
         measured(view[key]?.value, width), isNumber(width) ?
           `${measured(view[key].low, width)} to ${measured(view[key].high, width)}` : missing,
         `${number(100 * view.unexplained, 2)} %`];
       }), { class: 'views', chosen: undefined }),
-    el('p', { class: 'small' }, 'A band of few harmonics may have a narrow interval and still be wrong: ' +
-      'below a resonance the force is amplified, and the coefficients take that over.'));
+    el('p', { class: 'small' }, 'A band of few harmonics may have a narrow interval and a wrong value: ' +
+      'below a resonance the dynamometer amplifies the force, and the coefficients contain this error.'));
 }
 
 function rmsCell(fit, fits) {
@@ -310,9 +310,9 @@ function sweepSection(report, best) {
   const chart = figure({ key: 'offset', x, label: 'offset of tooth 2', unit: 'µm', caption: zoomHint });
   const found = best?.runout?.radial_offsets_mm;
   const at = found?.length > 1 ? 1000 * (found[1] - found[0]) : null;
-  const part = section('sweep', 'How sharply the record tells the runout', 'Sweep',
-    prose('What the fit leaves when the radius of tooth 2 is held at each value and the coefficients are ' +
-      'fitted again. A deep, narrow valley means that the runout is well known.'), chart.element);
+  const part = section('sweep', 'How well the record determines the runout', 'Sweep',
+    prose('The curve is the residual of a fit with a fixed radius of tooth 2. The coefficients are fitted again for each ' +
+      'value. A deep, narrow valley means that the runout is well known.'), chart.element);
   const panel = {
     label: 'residual', unit: 'N rms', height: 240,
     series: models.map((model, i) => ({

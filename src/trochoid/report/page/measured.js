@@ -46,8 +46,8 @@ function measuredOverAngle(report, words) {
     prose(words.text), forces.element), draw: redraw }];
   if (left) {
     parts.push({ part: section('residuals', 'Residuals: what stays unexplained', 'Residuals',
-      prose('Measured minus computed, on one scale. Only noise should be left; a pattern that ' +
-        'repeats with the teeth tells of something that the model does not know.', bandWords(bandOf(state.model))),
+      prose('Measured minus computed, all on the same scale. Only noise should be left. A pattern that ' +
+        'repeats with the teeth is a sign of something that the model does not contain.', bandWords(bandOf(state.model))),
       left.element) });
   }
   return parts;
@@ -62,8 +62,8 @@ function drawForces(chart, values, model, models) {
 }
 
 /** What grey and coloured lines of the residuals are where the fit counts a band only. */
-const bandWords = (band) => (band ? ` The fit counts the mean and the first ${band} harmonics of a turn: the coloured ` +
-  'line is what it leaves of them, grey is what stays of everything.' : '');
+const bandWords = (band) => (band ? ` The fit uses the mean and the first ${band} harmonics of a turn. The coloured ` +
+  'line is their residual. Grey is the residual of everything.' : '');
 
 function drawResiduals(chart, values, model, band) {
   const angle = values('angle_deg');
@@ -108,8 +108,8 @@ function overviewSection(report) {
   const draw = (run) => chart.draw(panelsOf(run), at(run));
   chart.controls.append(...[choice('Run', runs.map((r) => ({ value: r, text: number(r) })),
     runs[0], draw)].filter(Boolean));
-  const part = section('overview', 'The whole record, and what of it was used', 'Record',
-    prose('The channels as they were read. What is fitted lies between the dashed lines; without any, it is all.'),
+  const part = section('overview', 'The whole record and its used part', 'Record',
+    prose('These are the channels of the file. The fit uses the part between the dashed lines. Without dashed lines it uses the whole record.'),
     chart.element);
   return { part, draw: () => draw(runs[0]) };
 }
@@ -117,9 +117,9 @@ function overviewSection(report) {
 /** "5 revolutions laid over each other. " */
 function turnWords(turns, runs) {
   const counts = [turns ?? []].flat();
-  if (counts.length !== runs.length) return 'All revolutions laid over each other. ';
+  if (counts.length !== runs.length) return 'All revolutions are laid over each other. ';
   const of = counts.length > 1 ? ` of run ${runs.join(', ')}` : '';
-  return [el('b', {}, `${counts.join(', ')} revolutions`), `${of} laid over each other. `];
+  return [el('b', {}, `${counts.join(', ')} revolutions`), `${of} are laid over each other. `];
 }
 
 /** One revolution: the mean of all, and how far single ones scatter around it. */
@@ -146,7 +146,7 @@ function foldedSection(report) {
   chart.controls.append(...[choice('Run', runs.map((r) => ({ value: r, text: number(r) })),
     runs[0], draw)].filter(Boolean));
   const part = section('folded', 'How well revolutions repeat', 'Revolutions',
-    prose(turnWords(report.result.signal?.revolutions, runs), 'A wide band is noise, chatter or a spindle ' +
+    prose(turnWords(report.result.signal?.revolutions, runs), 'A wide band is a sign of noise, of chatter or of a spindle ' +
       'speed that drifts.'), chart.element);
   return { part, draw: () => draw(runs[0]) };
 }

@@ -57,13 +57,13 @@ function modesTable({ modes: found, noise, unresolved }) {
   return section('modes', 'The modes', 'Modes',
     table(['', 'natural frequency, Hz', 'damping ratio', 'modal mass, kg', 'modal stiffness, N/µm',
       'modal damping, N s/m'], modeRows(modes), { class: 'fits' }),
-    prose('± half of a 95 % confidence interval, under the noise that the response shows' + noiseWords(noise) +
-      '. What a wrong calibration of hammer or sensor does is not in it.'),
+    prose('± is half of a 95 % confidence interval, for the noise of the response' + noiseWords(noise) +
+      '. It does not include a wrong calibration of hammer or sensor.'),
     leftOut(unresolved));
 }
 
 /** Resonances that are no answers, in words; null: there are none. */
-const leftOut = (unresolved) => (unresolved?.length ? prose('In the fit, and not among the modes: ',
+const leftOut = (unresolved) => (unresolved?.length ? prose('Terms of the fit that are not modes: ',
   unresolved.map(({ why }) => why).join('; '), '.') : null);
 
 /** The noise of a response (M-15), in brackets. */
@@ -87,13 +87,13 @@ function ordersSection(result) {
     order.frequencies_Hz.map((f) => number(f, 4)).join(', '),
     el('span', { style: 'white-space: normal' }, order.fault ? sentence(order.fault) : '')]);
   const of = shared
-    ? prose('The fits that were tried, likeliest first, by the evidence of all responses together. A difference of 10 is ' +
-      'very strong evidence; complex shapes are taken from there on only.',
+    ? prose('All fits, the most probable first, by the evidence of all responses together. A difference of 10 is ' +
+      'very strong evidence. Complex shapes need at least this difference.',
     isNumber(result.complex_evidence) && result.complex_evidence > 10
-      ? ` Real modes do not describe these responses: the best of them is ${number(result.complex_evidence, 3)} above.`
+      ? ` Real modes do not describe these responses: the criterion of the best real fit is ${number(result.complex_evidence, 3)} higher.`
       : '')
-    : prose('The fits that were tried, likeliest first. The information criterion weighs how well the noise is ' +
-      'left against the number of parameters; a difference of 10 is very strong evidence.');
+    : prose('All fits, the most probable first. The information criterion weighs the residual ' +
+      'against the number of parameters. A difference of 10 is very strong evidence.');
   return section('orders', shared ? 'Number and form of the modes' : 'Number of modes', 'Number of modes', of,
     table(['modes', ...(shared ? ['shapes'] : []), 'residual terms', 'criterion above the best',
       'frequencies of all terms, Hz', 'why it is not the answer'], rows, { class: 'fits' }));
@@ -112,8 +112,8 @@ function tapSection(report) {
     caption: zoomHint + thinned(t) }) : null;
   return { part: section('hits', 'Hammer blows', 'Blows',
     table(['', 'time, s', 'peak force, N', ''], rows, { class: 'fits' }),
-    prose(coherence ? 'Coherence: the fraction of the response that the force explains, the same in all blows. It ' +
-      'falls where noise reigns, at antiresonances among others.' : 'One blow has no coherence.'),
+    prose(coherence ? 'Coherence: the fraction of the response that the force explains in the same way in all blows. It ' +
+      'falls where noise is large, for example at antiresonances.' : 'One blow has no coherence.'),
     chart?.element), draw: () => chart?.draw([{ label: 'coherence', unit: '', height: 150,
     range: () => [0, 1.03], series: [{ name: '', values: coherence, color: '--s1' }] }]) };
 }
@@ -139,8 +139,8 @@ function stabilisationSection(report) {
       dots(1, 'frequency stable', '--s2', 6),
       dots(0, 'new', '--soft', 4)] }];
   return { part: section('stabilisation', 'Stabilisation', 'Stabilisation',
-    prose('Poles of a rational fit with one pair, two pairs and so on. Stable: within 1 % of a frequency and ' +
-      '5 % of a damping ratio of the fit before. Vertical lines are the modes that were found.'),
+    prose('Poles of a rational fit with one pair, two pairs and so on. A pole is stable within 1 % of the frequency and ' +
+      '5 % of the damping ratio of the fit with one pair less. Vertical lines are the modes in the answer.'),
     chart.element), draw: () => chart.draw(panels) };
 }
 
@@ -175,7 +175,7 @@ function responseSection(report) {
   if (!chart) return null;
   return { part: section('response', 'Frequency response function', 'Response',
     prose(sentence(kindLabels[kind] || 'the response'), description ? `: ${description}. ` : '. ',
-      chart.fitted ? 'Grey is what was measured, blue the modes together.' : 'Grey is what was measured.'),
+      chart.fitted ? 'Grey: measured. Blue: all modes together.' : 'Grey: measured.'),
     chart.element), draw: chart.draw };
 }
 
@@ -252,10 +252,10 @@ function sharedModesTable({ modes, real_modes: real, shapes, unresolved }) {
   const damping = 'damping, N s/m';
   return section('modes', 'The modes', 'Modes',
     table(heads(complex ? 'imaginary, %' : damping), modeRows(modes, complex), { class: 'fits' }),
-    prose('Frequency and damping ratio are common to all responses; mass, stiffness and damping are those of motion ' +
-      'along the shape, whose direction is told from +x towards +y. ± half of a 95 % confidence interval, under the ' +
-      'noise that each response shows.'),
-    complex ? prose('The real modes that fit all responses best, which modes.toml holds:') : null,
+    prose('Frequency and damping ratio are common to all responses. Mass, stiffness and damping are for motion ' +
+      'along the shape. Its direction is an angle from +x towards +y. ± is half of a 95 % confidence interval, for the ' +
+      'noise of each response.'),
+    complex ? prose('The real modes that fit all responses best. modes.toml contains them:') : null,
     complex ? table(heads(damping), modeRows(real, false), { class: 'fits' }) : null,
     leftOut(unresolved));
 }
@@ -272,10 +272,10 @@ function shapesTable({ modes, responses }) {
     partsOf(one.re_per_kg, one.re_se, one.im_per_kg, one.im_se))]);
   return section('shapes', 'Shapes and residues', 'Shapes',
     table(['', ...modes[0].shape.map(({ axis }) => `φ ${axis}, 1/√kg`)], shapes, { class: 'fits' }),
-    prose('Shapes, scaled to a modal mass of 1; the largest component has a real part above 0.'),
+    prose('The shapes are scaled to a modal mass of 1. The largest component has a real part above 0.'),
     table(['', ...modes.map((_, i) => `mode ${i + 1}, 1/kg`)], residues, { class: 'fits' }),
-    prose('Residues: what each mode gives to each response, motion named before force: the product of both components ' +
-      'of the shape.'));
+    prose('A residue is the part of a mode in a response: the product of two components of the shape. The name of the response is ' +
+      'the direction of motion, then of force.'));
 }
 
 function sharedResponse(report, response) {
@@ -288,7 +288,7 @@ function sharedResponse(report, response) {
     `Response ${name}: motion along ${response.axis}, force along ${response.force_axis}`, `Response ${name}`,
     prose(sentence(kindLabels[kind] || 'the response'), description ? `: ${description}. ` : '. ',
       isNumber(explained) ? `The modes explain ${number(100 * explained, 5)} % of it${noiseWords(noise)}. ` : '',
-      direct ? '' : 'A cross response may turn either way: its phase tells on which side of the axes modes lie.'),
+      direct ? '' : 'The phase of a cross response may go up or down. It shows on which side of the axes a mode lies.'),
     chart.element), draw: chart.draw };
 }
 

@@ -115,9 +115,9 @@ function movingSection(report) {
     still ? null : el('div', { class: 'choice' }, el('div', {}, button)), slider));
   chart.canvas.parentElement.after(readout);
   const part = section('moving', 'The cut from above', 'From above',
-    prose('Stock, tool and the force on it (arrow) at one moment of the last turns; a tooth with a bar at its tip is ' +
-      'where it may cut. Thin: the path of the middle of the tool. ', el('span', { class: 'screen' },
-      still ? 'Move along with the slider.' : 'Play goes slowly; the slider, also with the arrow keys, to any moment.')),
+    prose('Stock, tool and the force on the tool (arrow) at one moment of the last turns. A bar at the tip of a tooth means that ' +
+      'the tooth can cut there. Thin line: the path of the middle of the tool. ', el('span', { class: 'screen' },
+      still ? 'The slider chooses the moment.' : 'Play shows the motion slowly. The slider and the arrow keys choose a moment.')),
     chart.element);
   return { part, draw: () => chart.resize() };
 }

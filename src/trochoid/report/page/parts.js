@@ -11,7 +11,7 @@ const isEmpty = (value) => value === null || value === undefined ||
 /** How much of a table is drawn, where that is not all of it. */
 function thinned(t) {
   if (!t || t.drawn >= t.rows) return '';
-  return ` Drawn from ${t.drawn} of ${t.rows} rows, the first ones and all extremes kept; all are in ${t.file}.`;
+  return ` The picture shows ${t.drawn} of ${t.rows} rows, with the first ones and all extremes. ${t.file} has all rows.`;
 }
 
 /** The few numbers that matter most. list: {label, value, unit, note} */
@@ -69,8 +69,8 @@ function chipSection(report, note) {
     caption: zoomHint + thinned(drawn.table),
   });
   const part = section('chip', 'Uncut chip thickness of each tooth', 'Chip',
-    prose('The thickness ', el('i', {}, 'h'), ` ${placeOf(report.result.teeth_height_mm)}, along the immersion angle `,
-      el('i', {}, 'θ'), ' of the tooth. With runout the teeth take unequal chip loads.', note),
+    prose('The thickness ', el('i', {}, 'h'), ` ${placeOf(report.result.teeth_height_mm)}, over the immersion angle `,
+      el('i', {}, 'θ'), ' of the tooth. Runout makes the chip loads of the teeth unequal.', note),
     chart.element);
   const series = drawn.curves.map((curve, i) => ({
     name: `tooth ${curve.tooth}`, values: um[i], color: seriesColor(i), dash: dashOf(i),
@@ -133,8 +133,8 @@ function engagementSection(teeth, height) {
     return tick;
   });
   return section('engagement', 'Engagement: where each tooth cuts', 'Engagement',
-    prose('From entry to exit angle: immersion angles with a chip', isNumber(height) ? ` ${placeOf(height)}` : '',
-      '; 0° is +y, 90° the direction of feed.'),
+    prose('Each bar covers the immersion angles with a chip, from entry to exit', isNumber(height) ? ` ${placeOf(height)}` : '',
+      '. 0° is +y, 90° is the direction of feed.'),
     el('ol', { class: 'engagement' }, rows,
       el('li', { class: 'ticks' }, el('b', {}), el('span', { class: 'track' }, ticks))));
 }

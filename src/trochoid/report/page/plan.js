@@ -64,9 +64,9 @@ function bestSection(result, cuts, keys) {
     ...keys.map((key) => spreadText(key, cut.predicted[key]))]);
   const counted = isNumber(cuts[0].narrows);
   return section('best', 'The best cuts', 'Best cuts',
-    prose(`What ${number(result.turns)} turns of each cut, added to what is known, make of the 95 % intervals. `,
-      'The first leaves the smallest joint region of all the quantities',
-      counted ? '; "narrower" is the geometric mean of how much the standard errors shrink; intervals from few turns shrink more.' : '.'),
+    prose(`The columns with ± are the 95 % intervals after ${number(result.turns)} turns of the cut, together with all that is known so far. `,
+      'The first cut gives the smallest joint region of all quantities.',
+      counted ? ' The column "narrower" is the geometric mean of the factors by which the standard errors shrink. Intervals from few turns shrink more.' : ''),
     table(['cut', 'feed per tooth', 'axial depth', 'radial depth', 'peak force',
       ...(counted ? ['narrower'] : []), ...keys.map(quantityName)],
     [['so far', '', '', '', '', ...(counted ? [''] : []),
@@ -107,8 +107,8 @@ function allCutsSection(report, keys) {
   const varied = planAxes.filter(({ column }) => new Set(columnNamed(t, column)).size > 1);
   const chosen = varied[0] || planAxes[0];
   const part = section('cuts', 'All cuts compared', 'All cuts',
-    prose('Each point is a cut: the half width of the 95 % interval after it. Low is well known; over the peak force, low and ' +
-      'far left is much knowledge for little force.'),
+    prose('Each point is the half width of the 95 % interval after a cut. A low point is a well known quantity. Over the peak ' +
+      'force, a low point on the left is a good result for a small force.'),
     choice('Over', varied.map((axis) => ({ value: axis, text: axis.text })), chosen, show), place);
   return { part, draw: () => show(chosen) };
 }
@@ -117,10 +117,10 @@ const meansFrom = { records: 'of the means so far', given: 'channel_sd', assumed
 const channelUnit = (channel) => (channel === 'power' ? 'W' : /^(M|torque)/.test(channel) ? 'N m' : 'N');
 
 function basisSection(result) {
-  const from = { records: 'what the fit of the records leaves', given: 'given', assumed: 'assumed: 2 % of the peak force' };
+  const from = { records: 'residual of the fit of the records', given: 'given', assumed: 'assumed: 2 % of the peak force' };
   const left = result.left_out || [];
   const files = (result.files || []).map((file) => file.split('/').pop());
-  return section('basis', 'What this rests on', 'Basis',
+  return section('basis', 'What the plan is based on', 'Basis',
     table(['', ''], [
       ['measured so far', files.length ? files.join(', ') :
         result.channels?.length && result.noise_from === 'records' ? 'means' : 'nothing'],

@@ -47,8 +47,8 @@ function roughnessSection(report) {
   const cell = (value) => (isNumber(value) ? fixed(value, 3) : '–');
   const part = section('feeds', 'Ra at each feed', 'Ra',
     prose(`The largest Ra of ${linesInWords(result.lines)}${isNumber(result.cutoff_mm) ?
-      `, behind a filter of ${number(result.cutoff_mm)} mm` : ', without a filter'}. Of random sets of inserts within ${
-      number(result.inserts_within_um)} µm 95 of 100 lie below the curve of a set.`),
+      `, with a filter of ${number(result.cutoff_mm)} mm` : ', without a filter'}. 95 of 100 random sets of inserts within ${
+      number(result.inserts_within_um)} µm lie below the curve of a set.`),
     chart.element,
     table(['feed per tooth [mm]', ...sets.map(([, , name]) => `Ra, ${name} [µm]`)],
       result.feeds.map((f) => [number(f.feed_per_tooth_mm, 4), ...sets.map(([, key]) => cell(f[key]))])));

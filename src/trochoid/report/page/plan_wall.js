@@ -36,9 +36,9 @@ function wallPlanLead(result, keys) {
         number(best.radial_depth_mm, 3)} mm` },
     thin && { label: 'Thinnest wall, cut as stated', value: isNumber(thin.thickness_mm) ?
       fixed(thin.thickness_mm, 3) : 'none', unit: isNumber(thin.thickness_mm) ? 'mm' : '',
-    note: isNumber(thin.thickness_mm) ? (thin.thinner_too ? 'thinner ones as well' :
+    note: isNumber(thin.thickness_mm) ? (thin.thinner_too ? 'thinner walls are possible too' :
       `now ${number(cutting.thickness_mm)} mm${isNumber(cutting.stated?.peak_error_um) && cutting.limited === 'peak' ?
-        `, which leaves ${fixed(cutting.stated.peak_error_um, 3)} µm` : ''}`) : `${fixed(thin.error_um, 3)} µm stay` },
+        `, which leaves ${fixed(cutting.stated.peak_error_um, 3)} µm` : ''}`) : `an error of ${fixed(thin.error_um, 3)} µm stays` },
   ])];
 }
 
@@ -66,8 +66,8 @@ function designsSection(report, keys) {
   const part = section('designs', 'How to measure', 'Measure',
     prose('Measure at ', el('b', {}, `${result.chosen.heights} heights`), ` from ${number(at[0], 3)} to ${
       number(at[at.length - 1], 3)} mm above the tip, `, el('b', {}, `${result.chosen.readings_per_height} readings`),
-    ' at each, at the same places, over whole turns of the feed. Spread is the part of the axial depth that the heights take. ' +
-      'Intervals are 95 %', result.form === 'none' ? '.' : [', with an unknown ', el('b', {}, result.form), ' of the readings found as well.']),
+    ' at each height, at the same places along the feed, over whole turns. Spread is the part of the axial depth that the heights cover. ' +
+      'Intervals are 95 %', result.form === 'none' ? '.' : ['. The fit also finds an unknown ', el('b', {}, result.form), ' of the readings.']),
     table(['', 'heights', 'at each', 'readings', ...keys.map(quantityName)], rows), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
@@ -182,14 +182,14 @@ function errorGridSection(report) {
   chart.controls.append(...[choice('Show', views.map((view) => ({ value: view, text: view.name })), state.view,
     (view) => { state.view = view; chart.redraw(); })].filter(Boolean));
   const { best, stated } = cutting;
-  const words_ = !isNumber(limit) ? ['No error is allowed or forbidden: give ', el('code', {}, 'largest_error_um'),
+  const words_ = !isNumber(limit) ? ['The case has no largest error. Set ', el('code', {}, 'largest_error_um'),
     ' to see which cuts keep it.'] : best ? ['The red line is the limit of ', el('b', {}, `${number(limit)} µm`),
-    `. Within it the largest removal rate, ${mm3(best.removal_rate_mm3_per_min)}, is at a feed of ${
+    `. The largest removal rate within it is ${mm3(best.removal_rate_mm3_per_min)}, at a feed of ${
       number(best.feed_per_tooth_mm, 3)} mm per tooth and a radial depth of ${number(best.radial_depth_mm, 3)} mm.`] :
-    ['No cut that was looked at keeps ', el('b', {}, `${number(limit)} µm`), '.'];
+    ['None of the cuts in the map keeps ', el('b', {}, `${number(limit)} µm`), '.'];
   const part = section('cuts', 'The error over feed and radial depth', 'Cuts',
-    prose('Thickness and axial depth as stated. The cut as stated leaves ', isNumber(stated.peak_error_um) ?
-      `${fixed(stated.peak_error_um, 3)} µm at most.` : 'no steady state.', ' ', ...words_), chart.element);
+    prose('Thickness and axial depth are as in the case. The cut of the case has ', isNumber(stated.peak_error_um) ?
+      `a largest error of ${fixed(stated.peak_error_um, 3)} µm.` : 'no steady state.', ' ', ...words_), chart.element);
   return { part, draw: () => chart.resize() };
 }
 
@@ -232,16 +232,16 @@ function changesSection(result, keys) {
         series: seriesOf(lengths) }].filter(Boolean));
   };
   const part = section('changes', 'Other cuts and walls', 'Other cuts',
-    prose('The same readings, the heights in proportion to the axial depth, of a cut or a wall that differs in one ' +
-      'thing.'),
+    prose('The same readings on another cut or wall. It differs from the case in one thing. The heights are in proportion ' +
+      'to the axial depth.'),
     choice('Over', kinds.map((kind) => ({ value: kind, text: changeWords[kind] || kind })), kinds[0], show), place);
   return { part, draw: () => show(kinds[0]) };
 }
 
 function wallBasis(result) {
-  const from = { readings: 'what the fit of the readings leaves', given: 'given', assumed: 'assumed' };
+  const from = { readings: 'residual of the fit of the readings', given: 'given', assumed: 'assumed' };
   const files = (result.files || []).map((file) => file.split('/').pop());
-  return section('basis', 'What this rests on', 'Basis', table(['', ''], [
+  return section('basis', 'What the plan is based on', 'Basis', table(['', ''], [
     ['measured so far', files.length ? `${files.join(', ')} (${result.readings_so_far} readings)` : 'nothing'],
     ['noise of a reading', `${number(result.noise_um, 3)} µm (${from[result.noise_from] || ''})`],
     ['unknown form of the readings', result.form],

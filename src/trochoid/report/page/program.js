@@ -78,8 +78,8 @@ function pathSection(report) {
   el('b', {}, `${number(dot[view.key], 4)}`), ` ${view.label.replace(/.*\[(.*)\]/, '$1')}`, isNumber(dot.entry_deg) ? engagedText(dot) : '',
   isNumber(dot.entry_deg) ? cutterAt(dot) : '']);
   const part = section('path', 'The path of the tool', 'Path',
-    prose('Every dot is a turn of the spindle in cut, at the middle of the tool. Its colour tells how much that turn loads ' +
-      'the tool. From above, lower passes lie over higher ones.', thinned(t)), chart.element);
+    prose('Every dot is a turn of the spindle in cut, at the middle of the tool. Its colour shows the load of the tool in this turn. ' +
+      'From above, lower passes hide higher ones.', thinned(t)), chart.element);
   return { part, draw: () => chart.resize() };
 }
 
@@ -199,7 +199,7 @@ function worstLines(report) {
     .sort((a, b) => at('peak_xy_N')[b] - at('peak_xy_N')[a]).slice(0, worstShown);
   if (!order.length) return null;
   return section('lines', 'The lines that load the tool most', 'Lines',
-    prose('The cause is the one of most turns within 1 % of the largest force of the line. All lines are in lines.csv.'),
+    prose('The cause is the most frequent one among the turns within 1 % of the largest force of the line. lines.csv has all lines.'),
     table(['line', 'text', 'force', 'tooth', 'torque', 'deflection', 'cause', 'beyond'], order.map((i) => [
       number(at('line')[i]), el('code', {}, at('text')[i]), `${fixed(at('peak_xy_N')[i], 3)} N`,
       `${fixed(at('peak_tooth_N')[i], 3)} N`, `${fixed(at('torque_peak_Nm')[i], 3)} N m`,
@@ -234,7 +234,7 @@ function recordSection(report, record) {
   const part = section('record', 'The record over the program', 'Record',
     prose(`The program starts at ${number(record.start_s, 4)} s of the record. Over ${number(record.steps)} turns in cut the measured ${what}.`),
     chart?.element, rows.length ? prose(`Coefficients from the means of ${number(record.fitted_steps)} steady turns. ` +
-      'The intervals are those of 95 %.') : null,
+      'Intervals are 95 %.') : null,
     rows.length ? table(['coefficient', 'stated', 'found', 'interval'], rows) : null,
     record.fit?.ok ? fitOfCuts(record) : null);
   const panel = (label, name, unit) => ({ label, unit, height: 180, series: [
@@ -279,19 +279,19 @@ function feedSection(report, feed) {
   const held = [...seconds].sort((a, b) => b[1] - a[1]).map(([name, time]) => [el('code', {}, name), `${fixed(time, 3)} s`]);
   const some = (lines) => lines.slice(0, 20).join(', ') + (lines.length > 20 ? ' ...' : '');
   return section('feed', 'The program with new feeds', 'Feed',
-    feed.file ? prose('The new program is ', el('code', {}, feed.file), ' beside this page. It was read and run again.')
-      : prose('No program is written: give [feed] write.'),
+    feed.file ? prose('The new program is ', el('code', {}, feed.file), ' in the folder of this page. It was read again and its forces were computed again.')
+      : prose('No new program was written. To write one, set write in [feed].'),
     table(['', 'as it is', 'with new feeds'], [row('time', 'time_s', 's'), row('in cut', 'time_in_cut_s', 's'),
       row('largest force across', 'peak_xy_N', 'N'), row('of one tooth', 'peak_tooth_N', 'N')]),
-    held.length ? table(['what holds the feed', 'for'], held) : null,
+    held.length ? table(['limit of the feed', 'for'], held) : null,
     feed.not_reachable.length ? prose(`Even the lowest feed breaks a limit in lines ${some(feed.not_reachable)}.`) : null);
 }
 
 function chatterSection(lines) {
   const worst = [...lines].sort((a, b) => a.margin - b.margin).slice(0, worstShown);
   return section('chatter', 'Lines that chatter', 'Chatter',
-    prose('Worst first: the cut of the line that is farthest beyond its limit depth. At the better speed it is stable with the ' +
-      'same feed per tooth.'),
+    prose('The worst line is first. Each row is the cut of the line that is farthest beyond its limit depth. At the better speed this cut is stable ' +
+      'with the same feed per tooth.'),
     table(['line', 'limit depth', 'over axial depth', 'chatter', 'speed', 'better speed'], worst.map((one) => [number(one.line),
       `${fixed(one.limit_depth_mm, 3)} mm`, fixed(one.margin, 2), `${number(one.frequency_Hz, 4)} Hz`,
       `${number(one.spindle_rpm, 4)} rpm`, one.better_spindle_rpm ? `${number(one.better_spindle_rpm, 4)} rpm` : 'none within 30 %'])));
@@ -300,8 +300,8 @@ function chatterSection(lines) {
 function wallSection(lines) {
   const worst = [...lines].sort((a, b) => Math.max(b.most_um, -b.least_um) - Math.max(a.most_um, -a.least_um)).slice(0, worstShown);
   return section('walls', 'Walls that stay', 'Walls',
-    prose('Errors by the runout and the deflection of the cutter, over the height and along the feed. Positive: material left. ' +
-      'Walls that a later pass cuts away do not count.'),
+    prose('Errors from the runout and the deflection of the cutter, over the height and along the feed. Positive: material is left. ' +
+      'Walls that a later pass cuts away are left out.'),
     table(['line', 'side of the feed', 'least', 'mean', 'most'], worst.map((one) => [number(one.line), one.side,
       ...['least_um', 'mean_um', 'most_um'].map((key) => `${fixed(one[key], 3)} µm`)])));
 }

@@ -45,7 +45,7 @@ function dataTable(data) {
   const first = table(['row', ...data.head], cells, { class: 'rows' });
   if (data.rows.length === shown_.length) return [first];
   return [table(['of all', ...data.head], summaryRows(data), { class: 'rows' }), first,
-    el('p', { class: 'small' }, `The first ${shown_.length} of ${data.rows.length} rows; the CSV and Excel files contain all of them.`)];
+    el('p', { class: 'small' }, `The first ${shown_.length} of ${data.rows.length} rows. The CSV and Excel files contain all rows.`)];
 }
 
 /** chart: {element, size() -> [width, height], paint(c), data() -> {head, rows}, or none}. */

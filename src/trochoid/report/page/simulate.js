@@ -36,8 +36,8 @@ function comparisonParts(report) {
   const list = report.result.comparison;
   const parts = measuredOverAngle(report, {
     heading: 'Measured and computed force', short: 'Comparison',
-    text: 'Force on the tool. Grey is what was measured, the coloured line what the case gives ' +
-      'without any fitting of coefficients.',
+    text: 'Force on the tool. Grey: measured. Coloured: computed from the case. ' +
+      'No coefficient is fitted.',
   });
   if (!Array.isArray(list) || !list.length) return parts;
   const rows = list.map((run) => [run.file || '', number(run.rms_N, 3), number(run.measured_rms_N, 3),
@@ -95,7 +95,7 @@ function channelsOverAngle(report) {
     series: [{ name: '', values: column.values, color: seriesColor(i) }],
   }));
   const part = section('channels', 'What the dynamometer reads', 'Channels',
-    prose('The same force as the channels of the dynamometer show it.'), chart.element);
+    prose('The same force in the channels of the dynamometer.'), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
 
@@ -111,8 +111,8 @@ function statistics(result) {
 function volumeSection(check) {
   if (isEmpty(check)) return null;
   return section('volume', 'Self-check: material removed', 'Self-check',
-    prose('The chips of all teeth must add up to what the feed brings into the cut. ' +
-      'With all earlier teeth looked at, the two agree; with the previous tooth only, more ' +
-      'material is counted than exists.'),
+    prose('The chips of all teeth together must be as large as the material that the feed brings into the cut. ' +
+      'They are equal if the model looks at all earlier teeth. A model that looks at the previous tooth only counts ' +
+      'more material than exists.'),
     typeof check === 'object' ? described(check) : prose(shown(check)));
 }

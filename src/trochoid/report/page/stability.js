@@ -36,12 +36,12 @@ function dampingProse({ process_damping: damping }) {
   if (!damping) return null;
   const without = damping.limit_depth_without_mm;
   return prose(`With process damping of a ${dampingWords(damping)}. `,
-    ...(isNumber(without) ? ['Without it this cut would chatter from ', el('b', {}, `${number(without)} mm`), ' on.'] : []));
+    ...(isNumber(without) ? ['Without it this cut would chatter from ', el('b', {}, `${number(without)} mm`), ' of axial depth on.'] : []));
 }
 
 const judges = {
-  complex_modes: 'Verdict and diagram come from complex modes, which real ones do not describe. ',
-  response: 'Verdict and limit come from the measured response, which modes do not describe. ',
+  complex_modes: 'Verdict and diagram come from complex modes. Real modes do not describe this response. ',
+  response: 'Verdict and limit come from the measured response. Modes do not describe it. ',
 };
 
 /** The limit by the measured response beside that of the multiplier. */
@@ -72,13 +72,13 @@ function measuredSection(report) {
       .map(([name, s]) => [name, ...shown(s), signed(s.difference_percent),
         isNumber(s.median_difference_percent) ? `${number(s.median_difference_percent, 2)} %` : '']),
   ].filter(Boolean);
-  const words = prose('The limit depth three times. The measured response alone, with the mean force ' +
-    '(zeroth order) and with harmonics of it (multi-frequency), ' +
-    `${number(measured.band_Hz[0])} to ${number(measured.band_Hz[1])} Hz; and the Floquet multiplier of modes ` +
-    (measured.modes_fitted ? 'fitted to it. ' : 'given in the case. ') +
+  const words = prose('The limit depth by three solutions. Two use the measured response alone, from ' +
+    `${number(measured.band_Hz[0])} to ${number(measured.band_Hz[1])} Hz: with the mean force (zeroth order), and with harmonics of the force ` +
+    '(multi-frequency). The third is the Floquet multiplier of the modes ' +
+    (measured.modes_fitted ? 'fitted to this response. ' : 'of the case. ') +
     (judges[result.judged_by] || '') +
-    'Where multi-frequency and multiplier part, the modes are not the whole response; where zeroth order ' +
-    'parts from both, teeth cut too briefly for a mean force.');
+    'If multi-frequency and multiplier differ, the modes are not the whole response. If zeroth order ' +
+    'differs from both, the teeth cut too briefly for a mean force.');
   const numbers = table(['solution', 'limit depth here', 'chatter frequency', 'difference', 'median over speeds'], rows);
   const places = [...new Set(curves.flatMap((curve) => curve.x))].sort((a, b) => a - b);
   if (places.length < 2) {
@@ -111,7 +111,7 @@ function stabilityLead(result) {
         note: `${number(result.spindle_rpm, 6)} rpm, ${number(result.axial_depth_mm)} mm deep` },
       result.multiplier && { label: `Floquet multiplier of a ${mu.period}`, value: fixed(mu.absolute, 4),
         note: mu.absolute < 1 ? 'below 1: a small vibration fades' : 'above 1: a small vibration grows' },
-      !result.multiplier && { label: 'Floquet multiplier', value: 'none', note: 'no modes: by the measured response' },
+      !result.multiplier && { label: 'Floquet multiplier', value: 'none', note: 'no modes: the measured response decides' },
       { label: 'Limit depth at this speed', value: isNumber(result.limit_depth_mm) ?
         number(result.limit_depth_mm) : 'none', unit: isNumber(result.limit_depth_mm) && 'mm',
       note: isNumber(result.limit_depth_mm) ? limitWords(result.limit)
@@ -191,8 +191,8 @@ function lobesSection(report) {
     return [`${number(row.x[i], 6)} rpm, ${number(row.height)} mm: |μ| = `, el('b', {}, number(row.mu[i], 5))];
   });
   const part = section('lobes', 'Stability lobe diagram', 'Lobes',
-    prose('The Floquet multiplier |μ|: by what factor a small vibration grows in a period of the cut, for every ' +
-      'spindle speed and axial depth; everything else as in the case' +
+    prose('The Floquet multiplier |μ| is the factor by which a small vibration grows in a period of the cut. The map has it for every ' +
+      'spindle speed and axial depth. Everything else is as in the case' +
       `${result.process_damping ? `, with process damping of a ${dampingWords(result.process_damping)}` : ''}.`),
     chart.element);
   return { part, draw: () => chart.resize() };
@@ -220,11 +220,11 @@ function limitSection(report) {
       { name: '', values: hertz, jumps: jumpsOf(hertz), color: '--s3' }] },
   ];
   const part = section('limit', 'Limit depth and chatter frequency', 'Limit',
-    prose('Above the line the cut is unstable; islands of stability above it show in the map only. ' +
-      'The frequency is the strongest of the chatter that appears at the limit; where it jumps, another branch ' +
+    prose('Above the line the cut is unstable. Only the map shows stable islands above it. ' +
+      'The frequency is the strongest one of the chatter at the limit. Where it jumps, another branch ' +
       'is the first to chatter. Chatter has a frequency of its own (Hopf), or repeats after two periods (period doubling, flip), ' +
-      'or, with runout, after each.' +
-      (result.process_damping ? ` Process damping of a ${dampingWords(result.process_damping)} lifts it where the spindle is slow.` : '')),
+      'or, with runout, after each period.' +
+      (result.process_damping ? ` Process damping of a ${dampingWords(result.process_damping)} raises the limit depth at low spindle speeds.` : '')),
     chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
@@ -241,7 +241,7 @@ function modesSection(modes) {
     directionWords(mode.direction), number(mode.frequency_Hz, 6), number(100 * mode.damping_ratio, 4),
     number(mode.mass_kg, 5), number(1e-6 * mode.stiffness_N_per_m, 5)]);
   return section('modes', 'Modes: what vibrates', 'Modes',
-    prose('Directions of the tool relative to the work: a mode of the table moves against it.'),
+    prose('The direction is the motion of the tool relative to the work. In a mode of the table, the table itself moves the opposite way.'),
     table(['direction', 'natural frequency, Hz', 'damping ratio, %', 'modal mass, kg',
       'modal stiffness, N/µm'], rows));
 }

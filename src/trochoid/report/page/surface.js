@@ -4,17 +4,17 @@ const surfaceKnown = ['model', 'feedback', 'mean_error_mm', 'peak_error_mm', 'mi
   'compliance_mm_per_N', 'turns_to_repeat', 'heights', 'bent'];
 
 const errorModels = {
-  envelope: { name: 'envelope', what: 'the profile that stays on the wall: what the deflected teeth, ' +
-    'one after the other, leave uncut' },
+  envelope: { name: 'envelope', what: 'the profile that stays on the wall after all deflected teeth ' +
+    'have cut' },
   imprint: { name: 'imprint', what: 'the mark that each tooth leaves at the moment when it passes the ' +
-    'finished wall; no later tooth cuts it away' },
-  quasi_static: { name: 'quasi-static', what: 'the deflection at every spindle angle: a pulse of force ' +
-    'laid along the feed, not a profile that a probe could find' },
+    'finished wall, as if no later tooth cut it away' },
+  quasi_static: { name: 'quasi-static', what: 'the deflection at every spindle angle, drawn along ' +
+    'the feed. It is a pulse of force and not a profile that a probe can find' },
 };
 const feedbackWords = {
-  none: 'what the deflection takes from the chip is left out',
-  entry: 'the deflection shifts where teeth enter',
-  regenerative: 'the deflection changes entry and chip, and earlier cuts are remembered',
+  none: 'the model leaves out that the deflection makes the chip smaller',
+  entry: 'the deflection shifts the entry angle of the teeth',
+  regenerative: 'the deflection changes entry and chip, also through the earlier cuts',
   direct: 'the deflection changes entry and chip',
 };
 const micro = (mm) => (isNumber(mm) ? 1000 * mm : null);
@@ -66,7 +66,7 @@ function wallRows(t) {
 function atTheEnd(top, heights) {
   const all = heights.map((h) => h.height_mm);
   const ends = all.length > 2 && (top.height_mm === Math.min(...all) || top.height_mm === Math.max(...all));
-  return ends && Math.min(...all) > 0 ? ', the end of the heights that were computed' : '';
+  return ends && Math.min(...all) > 0 ? ', at the end of the computed heights' : '';
 }
 
 function surfaceLead(result, heights) {
@@ -84,7 +84,7 @@ function surfaceLead(result, heights) {
       { label: 'Largest error', value: fixed(micro(result.peak_error_mm), 3), unit: 'µm',
         note: `${number(top.height_mm, 3)} mm above the tip${atTheEnd(top, heights)}` },
       { label: 'Smallest error', value: fixed(micro(least), 3), unit: 'µm',
-        note: least < 0 ? 'negative: cut too deep' : 'at these heights nowhere cut too deep' },
+        note: least < 0 ? 'negative: cut too deep' : 'at these heights no point is cut too deep' },
       result.model !== 'quasi_static' && { label: 'Roughness along the feed, Ra up to',
         value: fixed(rough.Ra_um, 3), unit: 'µm', note: `Rt up to ${fixed(Math.max(
           ...heights.map((h) => h.Rt_um)), 3)} µm` },
@@ -93,7 +93,7 @@ function surfaceLead(result, heights) {
     ]),
     prose('Read as ', el('b', {}, model.name), `: ${model.what}. ${sentence(
       feedbackWords[result.feedback] || '')}${result.turns_to_repeat > 1 ?
-      `; steady state after ${result.turns_to_repeat} turns` : ''}.`),
+      `. Steady state after ${result.turns_to_repeat} turns` : ''}.`),
     markWords(result, heights),
   ];
 }
@@ -111,18 +111,18 @@ function markWords(result, heights) {
   const share = Array.from({ length: teeth }, (_, k) =>
     told.reduce((sum, h) => sum + h.share[k], 0) / told.length);
   const idle = share.map((s, k) => (s < 0.005 ? k + 1 : null)).filter(Boolean);
-  if (teeth < 2) return prose(`Feed marks: with one tooth, a mark repeats once a turn, ${amounts}.`);
+  if (teeth < 2) return prose(`Feed marks: with one tooth, the marks repeat once a turn. Their amplitude is ${amounts}.`);
   if (largest('once_per_turn_um') < 0.05 * (largest('once_per_tooth_um') || 1) ||
     largest('once_per_turn_um') < 1e-3) {
-    return prose(`Feed marks repeat with every tooth (amplitude ${other}): all teeth cut alike, nothing ` +
-      'betrays runout.');
+    return prose(`The feed marks repeat with every tooth (amplitude ${other}). So all teeth cut alike, and there is no sign ` +
+      'of runout.');
   }
   const ratio = mean('once_per_turn_um') / mean('once_per_tooth_um');
   return prose('Feed marks: the part that repeats ', el('b', {}, 'once a turn'), ` has an amplitude of ${
-    amounts}, the part that repeats once a tooth ${other}. `, ratio > 1 ?
-    'A mark a turn that outweighs the mark a tooth betrays runout: ' : 'The mark a turn comes from runout: ',
+    amounts}. The part that repeats once a tooth has ${other}. `, ratio > 1 ?
+    'The first part is larger, which is a sign of runout: ' : 'The first part comes from runout: ',
   `tooth ${share.indexOf(Math.max(...share)) + 1} makes ${number(100 * Math.max(...share), 2)} % of the wall`,
-  idle.length ? `, ${idle.length > 1 ? `teeth ${idle.slice(0, -1).join(', ')} and` : 'tooth'} ${
+  idle.length ? `, and ${idle.length > 1 ? `teeth ${idle.slice(0, -1).join(', ')} and` : 'tooth'} ${
     idle[idle.length - 1]} none of it.` : '.');
 }
 
@@ -156,9 +156,9 @@ function mapSection(report, rows, section_, pick) {
   section_.listeners.push(() => chart.redraw());
   const part = section('map', smooth && !lines ? 'The deflection over feed and height' :
     'Surface location error of the wall', 'Map',
-  prose('Error over the feed and the height. The feed runs to the right, the tip of the tool is at the ' +
-      'bottom.', lines ? ' Lines join equal errors.' : '', smooth ? ` Computed at ${rows.length} heights, straight ` +
-      'between them.' : ' One field for every mark of a tooth.'),
+  prose('Error over the feed and the height. The feed goes to the right. The tip of the tool is at the ' +
+      'bottom.', lines ? ' Each line joins points of equal error.' : '', smooth ? ` The error is computed at ${rows.length} heights and is straight ` +
+      'between them.' : ' Each field is a mark of a tooth.'),
     chart.element);
   return { part, draw: () => chart.resize() };
 }
@@ -209,7 +209,7 @@ function profileSection(report, rows, section_, pick) {
   section_.listeners.push(draw);
   chart.controls.append(...[heightSlider(rows, section_, pick)].filter(Boolean));
   const part = section('profile', 'Profile along the feed', 'Profile',
-    prose(rows.length > 1 ? 'At one height; the colour tells which tooth ' : 'The colour tells which tooth ', report.result.model === 'quasi_static' ?
+    prose(rows.length > 1 ? 'The profile at one height. The colour shows which tooth ' : 'The colour shows which tooth ', report.result.model === 'quasi_static' ?
       'entered last.' : 'made each point.'), words_, chart.element);
   return { part, draw };
 }
@@ -236,9 +236,9 @@ function heightSection(report, heights) {
         { name: 'once a tooth', values: of('once_per_tooth_um'), color: '--s3', width: 1.8, dash: [6, 3] }] },
   ].filter(Boolean);
   const part = section('heights', 'Over the height', 'Height',
-    prose('Mean error of each height with its smallest and largest value along the feed',
-      report.result.model === 'quasi_static' ? '.' : ', and the roughness measured along the feed: Ra the mean ' +
-      'distance from the mean, Rt from the lowest to the highest point.'), chart.element);
+    prose('Mean error of each height, with its smallest and largest value along the feed.',
+      report.result.model === 'quasi_static' ? '' : ' The roughness is taken along the feed: Ra is the mean ' +
+      'distance from the mean, Rt is the distance from the lowest to the highest point.'), chart.element);
   return { part, draw: () => chart.draw(panels) };
 }
 
@@ -266,8 +266,8 @@ function wallForces(report, section_, rows) {
       unit: 'µm', height: 120, series: [{ name: '', values: bentAt(), color: '--s3', width: 1.8 }] },
   ].filter(Boolean);
   const part = section('forces', 'Forces over the spindle angle', 'Forces',
-    prose('Force on the tool. Across the wall, positive pushes cutter and wall apart and leaves material; ' +
-      'the deflection is that of both together', rows > 1 ? ', at the height chosen above.' : '.'), chart.element);
+    prose('Force on the tool. A positive force across the wall pushes cutter and wall apart and leaves material. ' +
+      'The deflection is the sum of both', rows > 1 ? ', at the height chosen above.' : '.'), chart.element);
   const draw = () => chart.draw(panels());
   if (whole) section_.listeners.push(draw);
   return { part, draw };
@@ -290,7 +290,7 @@ function marksTable(heights, quasiStatic) {
     ...(teeth > 1 ? [h.share.map((s) => Math.round(100 * s)).join(' · ')] : []),
     fixed(micro(h.compliance_mm_per_N), 3)]);
   return section('numbers', 'Every height in numbers', 'Numbers',
-    prose(quasiStatic ? 'Errors in µm' : 'Errors and roughness in µm', marks ? ', amplitudes of the marks that repeat once a turn and once a tooth' : '',
-      teeth > 1 ? '; how much of the profile each tooth made' : '', '; the compliance of cutter and wall, for each newton of the whole force.'),
+    prose(quasiStatic ? 'Errors in µm.' : 'Errors and roughness in µm.', marks ? ' The amplitudes in µm are of the marks that repeat once a turn and once a tooth.' : '',
+      teeth > 1 ? ' The share of each tooth is its part of the profile.' : '', ' The compliance is for cutter and wall together, per newton of the whole force.'),
     table(head, rows, { class: 'rows' }));
 }

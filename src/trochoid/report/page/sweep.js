@@ -91,7 +91,7 @@ function bandSection(t, keys, quantities, draws) {
       high: sorted(column('high', q)) },
     series: [{ name: 'median', points: 5, color: seriesColor(n), width: 2, values: sorted(column('median', q)) }] }));
   return { part: section('band', `Over ${keys[0]}, with what is uncertain`, keys[0],
-    prose(`Median and 95 % of ${draws} draws, the same draws at every value. Computed where the dots stand, straight between them.`), chart.element),
+    prose(`Median and 95 % of ${draws} draws, with the same draws at every value. The dots are computed. The lines between them are straight.`), chart.element),
   draw: () => chart.draw(panels) };
 }
 
@@ -145,7 +145,7 @@ function tornadoSection(t, keys, quantities, apart) {
     })]);
   if (!rows.length || !swept.length) return null;
   return section('matters', 'What matters', 'What matters',
-    prose(points ? 'How the answer goes with each uncertain number among the draws (correlation of their ranks, without its sign, root mean square over the points): 1 decides alone, 0 does not matter.' :
-      'How the answer goes with each number (correlation of their ranks): 1 rises with it, −1 falls with it, 0 does not follow it.'),
+    prose(points ? 'How much each uncertain number changes the answer: the correlation of their ranks among the draws, without its sign, as a root mean square over the points. 1: this number alone decides. 0: it does not matter.' :
+      'How the answer follows each number: the correlation of their ranks. 1: it rises with the number. −1: it falls. 0: it does not follow.'),
     table(['', ...swept.map(breakable)], rows, { class: 'rows' }));
 }

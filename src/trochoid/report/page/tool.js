@@ -129,7 +129,7 @@ function toldOf(teeth) {
   const joined = (out, deeper, separator) => [out, deeper && `${deeper} deeper`].filter(Boolean).join(separator);
   const words = differ.length > 12 ? joined(ends('out'), ends('deeper'), '; ') : differ.map((t) => `tooth ${t.number} ` +
     joined(differs(t.out) && ofLength(1e3 * t.out), differs(t.deeper) && ofLength(1e3 * t.deeper), ', ')).join('; ');
-  return `Against a tool that runs true: ${words}.`;
+  return `Compared with a tool without runout: ${words}.`;
 }
 
 /**

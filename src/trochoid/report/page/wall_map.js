@@ -110,10 +110,10 @@ function measuredWall(report) {
     read: (dot) => [`${number(dot.x, 5)} mm along, height ${number(dot.height, 4)} mm: measured `,
       el('b', {}, `${number(dot.was, 4)} µm`), `, fitted ${number(dot.fit, 4)} µm, left `,
       el('b', {}, `${number(dot.left, 3)} µm`), dot.tooth > 0 ? `, tooth ${dot.tooth}` : ''] });
-  const part = section('wall', 'The wall, and the readings on it', 'Wall',
+  const part = section('wall', 'The wall and the readings on it', 'Wall',
     prose(flat ? 'Every dot is a reading, in the colour of its error.' :
-      'The wall as the answer has it; every dot is a reading, in the colour of what was measured. Where dots ' +
-      'stand out of the wall, the answer misses them.', ' "left over" shows what it misses: only noise, without ' +
-      'a pattern, should be left.', thinned(t)), chart.element);
+      'The wall shows the computed error. Every dot is a reading, in the colour of the measured error. Dots ' +
+      'with another colour than the wall do not agree with the answer.', ' "left over" shows measured minus fitted. Only noise should ' +
+      'be left, without a pattern.', thinned(t)), chart.element);
   return { part, draw: () => chart.resize() };
 }
