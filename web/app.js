@@ -134,14 +134,14 @@ async function check() {
     answer = await page.program.run('check', {
       args: ['check', page.name, '--for', commandOfTask()], files: allFiles(), folder: 'none' });
   } catch (error) {
-    $('state').textContent = `The program broke while it checked the case: ${error.message}`;
+    $('state').textContent = `The program failed while it checked the case: ${error.message}`;
     return;
   }
   if (mine !== page.checks) return;
   const rest = showMistakes($('form'), answer.code === 0 ? [] : mistakesOf(answer.err));
   $('mistakes').replaceChildren(...rest.map(({ line }) => element('li', {}, line)));
   $('checked').textContent = answer.code === 0 ? answer.out : '';
-  $('state').textContent = answer.code === 0 ? 'No mistakes found.' : 'There are mistakes; they stand at their fields.';
+  $('state').textContent = answer.code === 0 ? 'No mistakes found.' : 'There are mistakes. Each one is shown at its field.';
 }
 
 function say(text, kind = '') {
@@ -162,7 +162,7 @@ async function run() {
     const answer = await page.program.run('work', { args, files: allFiles(), folder }, (line) => say(line));
     show(answer, folder, (performance.now() - begun) / 1000);
   } catch (error) {
-    say(error.message === 'stopped' ? 'Stopped.' : `The program broke: ${error.message}`, 'bad');
+    say(error.message === 'stopped' ? 'Stopped.' : `The program failed: ${error.message}`, 'bad');
   } finally {
     clearInterval(ticks);
     $('time').textContent = '';

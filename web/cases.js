@@ -19,7 +19,7 @@ async function filesOfExample(name) {
   const { files, first } = page.examples[name];
   const all = new Map(Object.entries(files).map(([path, base64]) => [path, Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
   for (const { command, file, folder } of first ?? []) {
-    say(`Answering ${command} ${file}, which it needs …`);
+    say(`The example needs ${command} ${file} first. Working …`);
     const answer = await page.program.run('check', { args: [command, file, '-o', folder], files: Object.fromEntries(all), folder });
     for (const [path, bytes] of Object.entries(answer.files).filter(([one]) => one !== 'report.html')) all.set(`${folder}/${path}`, bytes);
   }

@@ -52,5 +52,5 @@ function whatIsMissing() {
   if (typeof Worker === 'undefined') missing.push('workers');
   if (typeof DecompressionStream === 'undefined') missing.push('DecompressionStream');
   return missing.length === 0 ? ''
-    : `This browser lacks ${missing.join(', ')}. By what their makers publish, Chrome or Edge 95, Firefox 113 and Safari 16.4, or later, have it.`;
+    : `This browser lacks ${missing.join(', ')}. According to their makers, Chrome or Edge 95, Firefox 113, Safari 16.4 and later ones have it.`;
 }
