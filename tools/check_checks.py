@@ -274,6 +274,20 @@ class Words(unittest.TestCase):
             self.assertEqual(len(found), count, found)
             self.assertTrue(all(f.startswith("src/trochoid/chip/m.cpp:2: 'is told'") for f in found))
 
+    def test_texts_of_pages(self):
+        for name, text, line in (
+                ("src/trochoid/report/page/a.js", "const a = 'It is told at once.';", 2),
+                ("src/trochoid/report/page/a.js", "a('What is ' +\n  `told: ${b}.`);", 2),
+                ("web/a.mjs", "a(`${b ? `it\n  is told ${c}` : ''} now`);", 2),
+                ("web/a.js", "a(x / 2, 'so it is told', y / 2);", 2),
+                ("web/a.html", "<p>a\nb</p>\n<p>It <b>is</b>\ntold.</p>", 4),
+                ("web/a.html", '<a title="It is told.">a</a>', 2),
+                ("web/a.js", "// It is told.\n/* is told */ a('held', \"b's\", /'is told/, `a${b}`);", 0),
+                ("web/a.html", "<script>it is told</script><!-- is told --><p>b</p>", 0)):
+            with self.subTest(text):
+                found = answers(check_words.faults, files={name: f"\n{text}\n"})
+                self.assertEqual([f.split(" '")[0] for f in found], [f"{name}:{line}:"] if line else [])
+
     def test_no_page(self):
         with tempfile.TemporaryDirectory() as folder:
             self.assertIn("no page found", list(check_words.faults(pathlib.Path(folder)))[0])

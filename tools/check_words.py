@@ -3,7 +3,7 @@
 sentence, few semicolons.
 
 Read are docs/, README.md and examples/*/README.md without their code, and what the program
-prints, the texts of src: these for the phrases alone. The phrases and what to write instead
+and its pages show, the texts of src and web: these for the phrases alone. The phrases and what to write instead
 are PHRASES. A phrase may stay in the places of ALLOWED.
 Usage: check_words.py [--counts] [REPOSITORY]. Each finding is printed as file:line: reason.
 --counts prints semicolons, "what", "that of" and "hold" per 1000 words of the pages instead,
@@ -13,8 +13,12 @@ import pathlib
 import re
 import sys
 
+import script_texts
+
 PAGES = ("README.md", "docs/**/*.md", "examples/**/README.md")
 LONGEST = 40  # words of a sentence
+SHOWN = ("src/trochoid/report/page/*.js", "src/trochoid/report/page/*.html",
+         "web/*.js", "web/*.mjs", "web/*.html")
 SEMICOLONS = 4  # per 1000 words of a page
 
 PHRASES = tuple((re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE), instead) for pattern, instead in (
@@ -150,6 +154,18 @@ def faults_of_messages(top, allowed):
                         yield f"{name}:{number}: '{found[0]}': {instead}"
 
 
+def faults_of_scripts(top, allowed):
+    """Of the pages that the program writes and of the form for browsers."""
+    for file in sorted(file for pattern in SHOWN for file in top.glob(pattern)):
+        name = str(file.relative_to(top))
+        read = script_texts.of_page if file.suffix == ".html" else script_texts.of_script
+        for number, text in read(file.read_text()):
+            for phrase, instead in PHRASES:
+                for found in phrase.finditer(text if " " in text else ""):
+                    if not allowed(name, text):
+                        yield f"{name}:{number}: '{found[0]}': {instead}"
+
+
 def faults(top):
     used = set()
 
@@ -162,6 +178,7 @@ def faults(top):
     for name, text in read:
         yield from faults_of(name, text, allowed)
     yield from faults_of_messages(top, allowed)
+    yield from faults_of_scripts(top, allowed)
     for entry in sorted(set(ALLOWED) - used):
         if (top / entry[0]).exists():
             yield f"{entry[0]}:1: has no '{entry[1]}' any more, and needs no exception"
