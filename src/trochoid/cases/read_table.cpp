@@ -184,18 +184,16 @@ struct TableReader {
         fmt::format("{} is missing{}; {}", key_path, why, must_be[known.back()]);
   }
 
-  /// The key of this table that may be meant: of a key of another table one that differs in
-  /// a letter.
+  /// The key of this table that may be meant: where another table has the key, one that
+  /// differs in a letter only.
   [[nodiscard]] std::string near_key(std::string_view key, bool has_home) const {
     std::string near = nearest(key, known);
-    const std::size_t longer = std::max(near.size(), key.size());
-    const std::size_t shorter = std::min(near.size(), key.size());
-    const auto same = static_cast<std::size_t>(
-        std::mismatch(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(shorter),
-                      key.begin())
-            .first -
-        near.begin());
-    return !has_home || same + 1 >= longer ? near : std::string();
+    if (!has_home) return near;
+    std::size_t differ = near.size() == key.size() ? 0 : key.size();
+    for (std::size_t i = 0; i < near.size() && near.size() == key.size(); ++i) {
+      differ += near[i] == key[i] ? 0U : 1U;
+    }
+    return differ == 1 ? near : std::string();
   }
 
   void report_unknown(const Member& member) {
