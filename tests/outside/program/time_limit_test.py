@@ -45,7 +45,7 @@ class TimeLimit(InFolder):
                                 "--no-report")
         self.assertLess(time.monotonic() - started, SOON)
         said = self.summary("lobes.stability")
-        self.assertEqual([w["code"] for w in said["warnings"]], ["time_limit"])
+        self.assertEqual([w["code"] for w in said["warnings"]], ["time_limit", "one_direction"])
         self.assertEqual(said["result"]["verdict"], "unstable")
         self.assertNotIn("better_speed", said["result"])
         rows = (self.folder / "lobes.stability/lobes.csv").read_text().splitlines()[1:]

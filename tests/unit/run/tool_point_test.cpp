@@ -75,7 +75,8 @@ TEST(ToolPoint, GivesTheLimitWithoutModesAndWithThoseFittedToIt) {  // [D-22]
   EXPECT_NEAR(r.measured->multi_frequency.limit->depth, limit, 3e-3 * limit);
   EXPECT_NEAR(r.measured->zeroth_order.limit->depth, 1.4314e-3, 5e-6);
   EXPECT_EQ(r.measured->multi_frequency.curve.size(), 2U);
-  EXPECT_TRUE(r.heading.warnings.empty()) << r.heading.warnings.front().message;
+  ASSERT_EQ(r.heading.warnings.size(), 1U);
+  EXPECT_EQ(r.heading.warnings.front().code, "one_direction");
 }
 
 /// Motion along one axis over force along another of two modes askew by 20 degrees.
