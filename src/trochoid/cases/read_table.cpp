@@ -208,11 +208,7 @@ struct TableReader {
     if (findings.problems.size() < most_hints) {
       hint = home_of(member.key);
       const std::string near = near_key(member.key, !hint.empty());
-      if (hint.empty()) {
-        hint = suggestion(member.key, known);
-      } else if (!near.empty()) {
-        hint = fmt::format("; did you mean {}? ({})", near, hint.substr(2));
-      }
+      if (hint.empty() || !near.empty()) hint = suggestion(member.key, known);
       if (!near.empty()) {
         missing.erase(near);
         hint += " " + must_be[near];
