@@ -5,6 +5,7 @@ const toml = smolToml;
 const tasks = {
   identify: ['Identify', 'coefficients and runout from measured forces'],
   simulate: ['Predict', 'chip, forces and torque of a cut'],
+  program: ['NC program', 'forces line by line, and the feeds that keep your limits'],
   calibrate: ['Wall: calibrate', 'coefficients from a measured thin wall'],
   surface: ['Wall: predict', 'the error a cut leaves on a wall'],
   modes: ['Modes', 'of a tool from a measured response'],

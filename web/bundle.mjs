@@ -41,7 +41,7 @@ function needed(text) {
 /** What the pages of the examples run, `command folder/file` -> its files. */
 function examples() {
   const all = {};
-  const commands = 'simulate|identify|surface|calibrate|stability|modes|actuator|dynamics|correct|plan|sweep';
+  const commands = 'simulate|identify|surface|calibrate|stability|modes|actuator|dynamics|correct|plan|program|sweep';
   for (const name of fs.readdirSync(path.join(root, 'examples'))) {
     const folder = path.join(root, 'examples', name);
     if (!fs.existsSync(path.join(folder, 'README.md'))) continue;

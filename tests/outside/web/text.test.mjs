@@ -30,6 +30,16 @@ function cases() {
     .map((entry) => [`${name}/${entry.name}`, fs.readFileSync(path.join(examples, name, entry.name), 'utf8')]));
 }
 
+test('the page has every command of the program', () => {
+  const header = fs.readFileSync(`${root}/src/trochoid/base/command.h`, 'utf8');
+  const commands = [...header.split('name_of')[1].matchAll(/return "(\w+)"/g)].map(([, name]) => name);
+  const app = fs.readFileSync(`${root}/web/app.js`, 'utf8');
+  const tasks = [...app.split('const tasks = {')[1].split('};')[0].matchAll(/^  (\w+): \[/gm)].map(([, name]) => name);
+  assert.deepEqual(tasks.filter((name) => name !== 'sweep').sort(), commands.filter((name) => name !== '').sort());
+  const bundle = fs.readFileSync(`${root}/web/bundle.mjs`, 'utf8');
+  for (const name of tasks) assert.ok(new RegExp(`const commands = '.*\\b${name}\\b`).test(bundle), name);
+});
+
 const comments = (text) => text.split('\n').filter((line) => line.startsWith('#')).length;
 
 test('a key set to what it is leaves the case as it was', () => {
