@@ -23,6 +23,15 @@ constexpr int parts = 6;
 /// Less air tells no offset [s].
 constexpr double least_air = 0.05;
 
+/// Slow channels lag behind: so many samples about a step are of the same cut, or of air.
+constexpr double settled = 6.0;
+
+/// Time from sample to sample, on the average [s].
+double sample_time(const Recorded& record) noexcept {
+  const auto n = static_cast<double>(record.time.size());
+  return n > 1 ? (record.time.back() - record.time.front()) / (n - 1) : 0.0;
+}
+
 /// Means of a record over any of its stretches.
 class Means {
  public:
@@ -339,9 +348,8 @@ double LaidOver::stretch(std::size_t from, std::size_t to) const noexcept {
          (record.time[last] - record.time[from]);
 }
 
-double sample_time(const Recorded& record) noexcept {
-  const auto n = static_cast<double>(record.time.size());
-  return n > 1 ? (record.time.back() - record.time.front()) / (n - 1) : 0.0;
+double settling_time(const Recorded& record) noexcept {
+  return settled * sample_time(record);
 }
 
 std::array<double, 3> mean_of(const Step& step, Reads reads) noexcept {
@@ -369,7 +377,9 @@ RecordedSteps over_steps(std::span<const Step> steps, const LaidOver& over) {
   for (const Step& step : steps) {
     if (!step.layers.empty() || step.cause != Cause::air) continue;
     const auto [from, to] = window(step);
-    const double rest = 0.2 * (to - from);  // times are known roughly
+    // Times are known roughly.
+    const double rest = std::max(0.2 * (to - from), settling_time(record));
+    if (!(to - from > 2 * rest)) continue;
     const auto mean = means.mean(from + rest, to - rest);
     if (mean) add_air(step, *mean, record.reads, out.idle);
   }

@@ -72,8 +72,9 @@ struct LaidOver {
   [[nodiscard]] double stretch(std::size_t from, std::size_t to) const noexcept;
 };
 
-/// Time from sample to sample, on the average [s].
-double sample_time(const Recorded& record) noexcept;
+/// @brief How long a record takes to show what is cut: slow channels lag behind and show means.
+/// @return so many samples as settle them [s]
+double settling_time(const Recorded& record) noexcept;
 
 /// @brief What a record should read in a step on the average, as Recorded::value.
 std::array<double, 3> mean_of(const Step& step, Reads reads) noexcept;

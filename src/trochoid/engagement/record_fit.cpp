@@ -21,8 +21,6 @@ constexpr std::size_t fitted_each = 6;
 constexpr std::size_t most_blocks = 30;
 /// A step is steady if its neighbours have the same means but for this part.
 constexpr double steady = 0.02;
-/// Slow channels lag behind and show means: so many samples about a step are of the same cut.
-constexpr double settled = 6.0;
 constexpr double rank_tolerance = 3e-3;
 
 /// Means over a turn for a unit of each coefficient, as Recorded::value, at the feed that the
@@ -80,7 +78,7 @@ bool is_steady(std::span<const Step> steps, std::size_t i, double within, Reads 
 std::vector<std::size_t> steady_steps(std::span<const Step> steps,
                                       const Recorded& record,
                                       const RecordedSteps& recorded, std::size_t tool) {
-  const double within = settled * sample_time(record);
+  const double within = settling_time(record);
   std::vector<std::size_t> all;
   for (std::size_t i = 1; i + 1 < steps.size(); ++i) {
     const Step& step = steps[i];
@@ -206,7 +204,10 @@ std::optional<MeanFit> fit_means(const Job& job, std::span<const Step> steps,
       steady_steps(steps, over.record, recorded, tool);
   const Tool& own = job.tools[tool];
   const std::vector<double> K = force::coefficients(own.law);
-  if (places.empty()) return std::nullopt;
+  // What the spindle takes in air is much of its power.
+  if (places.empty() || (reads != Reads::forces && !recorded.idle.found)) {
+    return std::nullopt;
+  }
   const std::vector<Found> found = looked_at(job, steps, places);
   std::vector<std::vector<Vector>> unit(found.size());
   numerics::for_each_index(

@@ -251,10 +251,16 @@ void warn_of_coefficients(const results::ProgramRecord& record,
                                 factor * *one.se / one.unit));
   }
   if (other.empty()) return;
+  // Power and torque depend on the tangential ones only.
+  const bool tangential = record.reads != engagement::Reads::forces;
+  const bool all = std::ranges::all_of(best_coefficients(record), [&](const auto& one) {
+    return one.se.has_value() || (tangential && !one.key.starts_with("K_t"));
+  });
   warnings.push_back(
       {"other_coefficients",
-       fmt::format("{}: its {} tell other coefficients than the case: {}.", record.file,
-                   fitted ? "forces" : "means", fmt::join(other, ", "))});
+       fmt::format("{}: its {} tell other coefficients than the case: {}{}.",
+                   record.file, fitted ? "forces" : "means", fmt::join(other, ", "),
+                   all ? "" : ", if the others are as stated")});
 }
 
 /// Lines that took longer or shorter than in the program, where the record has lines.
