@@ -25,6 +25,8 @@ constexpr double least_air = 0.05;
 
 /// Slow channels lag behind: so many samples about a step are of the same cut, or of air.
 constexpr double settled = 6.0;
+/// So many samples tell how long a line took.
+constexpr std::size_t samples_of_a_line = 70;
 
 /// Time from sample to sample, on the average [s].
 double sample_time(const Recorded& record) noexcept {
@@ -300,6 +302,7 @@ Recorded by_lines(std::span<const Step> steps, const Recorded& record,
     at->second.to = from + step.duration;
   }
   Recorded out{.reads = record.reads};
+  const double step = sample_time(record);
   const std::size_t n = record.time.size();
   for (std::size_t i = 0, next = 0; i < n; i = next) {
     while (next < n && record.line[next] == record.line[i]) ++next;
@@ -307,7 +310,13 @@ Recorded by_lines(std::span<const Step> steps, const Recorded& record,
     if (found == in_program.end()) continue;
     const auto [from, to] = found->second;
     const double first = record.time[i];
-    const double last = next < n ? record.time[next] : record.time[next - 1];
+    // The logger may have stood still behind it.
+    const double last =
+        record.time[next - 1] +
+        (next < n ? std::min(step, record.time[next] - record.time[next - 1]) : 0.0);
+    // The ends of a line are known to a sample: of short ones nothing follows.
+    const bool known = next - i >= samples_of_a_line && to > from;
+    const double slower = known ? (last - first) / (to - from) : 1.0;
     for (std::size_t k = i; k < next; ++k) {
       const double part =
           last > first ? (record.time[k] - first) / (last - first) : 0.0;
@@ -316,6 +325,7 @@ Recorded by_lines(std::span<const Step> steps, const Recorded& record,
       out.time.push_back(t);
       out.value.push_back(record.value[k]);
       out.clock.push_back(record.time[k]);
+      out.slower.push_back(slower);
     }
   }
   return out;
@@ -341,11 +351,9 @@ std::optional<Alignment> align(std::span<const Step> steps, const Recorded& reco
 }
 
 double LaidOver::stretch(std::size_t from, std::size_t to) const noexcept {
-  const std::vector<double>& clock = record.clock;
-  const std::size_t last = std::min(to, clock.empty() ? to : clock.size() - 1);
-  if (clock.empty() || last <= from) return alignment.stretch;
-  return alignment.stretch * (clock[last] - clock[from]) /
-         (record.time[last] - record.time[from]);
+  const std::vector<double>& slower = record.slower;
+  if (slower.empty() || from >= std::min(to, slower.size())) return alignment.stretch;
+  return alignment.stretch * slower[from + (std::min(to, slower.size()) - from) / 2];
 }
 
 double settling_time(const Recorded& record) noexcept {

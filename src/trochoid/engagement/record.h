@@ -27,6 +27,7 @@ struct Recorded {
   std::vector<int> line;                     ///< of the program, shape of time; or none
   Reads reads = Reads::forces;
   std::vector<double> clock = {};  ///< where `time` is that of the program, its own [s]
+  std::vector<double> slower = {};  ///< then, how many times as long the line took
 };
 
 /// What controls tell of where they are: the line of the text, or its N number.

@@ -20,6 +20,8 @@ namespace {
 
 /// A record that agrees less is not of this program.
 constexpr double least_correlation = 0.5;
+/// Of power and torque, whose idle part may pass for cuts.
+constexpr double least_of_one_channel = 0.85;
 /// A clock that differs more is said.
 constexpr double same_clock = 0.005;
 /// Feeds and coefficients that differ more from the case are said.
@@ -323,7 +325,10 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
                              .numbers = record.numbers,
                              .alignment = over.alignment,
                              .reads = over.record.reads};
-  if (over.alignment.correlation < least_correlation) {
+  const double least = over.record.reads == engagement::Reads::forces
+                           ? least_correlation
+                           : least_of_one_channel;
+  if (over.alignment.correlation < least) {
     warnings.push_back(
         {"record_does_not_fit",
          fmt::format(
