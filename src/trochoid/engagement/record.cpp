@@ -262,6 +262,17 @@ void stretch_over_parts(std::span<const Step* const> rows, const Means& means,
   out.scatter = std::sqrt(sum / n);
 }
 
+bool is_air(const Step& step) noexcept {
+  return step.layers.empty() && step.cause == Cause::air;
+}
+
+/// Whether a row of air follows another one at once, at the same speed.
+bool goes_on_in_air(const Step& row, const Step& next) noexcept {
+  constexpr double at_once = 0.01;  // [s]
+  const double gap = next.time - row.time - 0.5 * (row.duration + next.duration);
+  return is_air(next) && next.spindle == row.spindle && gap < at_once;
+}
+
 /// Into the mean of its speed, or of all where the speed does not matter.
 void add_air(const Step& step, const Vector& mean, Reads reads, Idle& idle) {
   constexpr double same = 0.005;
@@ -382,14 +393,19 @@ RecordedSteps over_steps(std::span<const Step> steps, const LaidOver& over) {
     const double half = 0.5 * alignment.stretch * step.duration;
     return std::pair(middle - half, middle + half);
   };
-  for (const Step& step : steps) {
-    if (!step.layers.empty() || step.cause != Cause::air) continue;
-    const auto [from, to] = window(step);
+  for (std::size_t i = 0, next = 0; i < steps.size(); i = next) {
+    next = i + 1;
+    if (!is_air(steps[i])) continue;
+    while (next < steps.size() && goes_on_in_air(steps[next - 1], steps[next])) ++next;
+    Step air = steps[i];
+    const double from = window(steps[i]).first;
+    const double to = window(steps[next - 1]).second;
+    air.duration = to - from;
     // Times are known roughly.
     const double rest = std::max(0.2 * (to - from), settling_time(record));
     if (!(to - from > 2 * rest)) continue;
     const auto mean = means.mean(from + rest, to - rest);
-    if (mean) add_air(step, *mean, record.reads, out.idle);
+    if (mean) add_air(air, *mean, record.reads, out.idle);
   }
   std::erase_if(out.idle.speeds, [](const auto& one) { return one.air <= least_air; });
   out.idle.found = !out.idle.speeds.empty();
