@@ -49,6 +49,15 @@ void report_full_disks() {
 #endif
 }
 
+/// A case is a .toml file; Windows may write that in capitals.
+bool is_case(const std::string& name) {
+  constexpr std::string_view ending = ".toml";
+  return name.size() > ending.size() &&
+         std::equal(ending.rbegin(), ending.rend(), name.rbegin(), [](char a, char b) {
+           return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b);
+         });
+}
+
 /// `trochoid CASE.toml` runs the command that the tables of the case ask for.
 std::string command_of_case(const std::string& file) {
   const trochoid::cases::Node root = trochoid::cases::load_document(file);
@@ -77,7 +86,7 @@ int run(int argc, char** argv) {
   trochoid::cli::add_manual(app);
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   const std::string first = words.empty() ? "" : words.front();
-  const bool of_case = first.ends_with(".toml");
+  const bool of_case = is_case(first);
   if (of_case) {
     words.insert(words.begin(), command_of_case(first));
   } else if (!words.empty() && !first.starts_with('-')) {

@@ -273,12 +273,16 @@ bool goes_on_in_air(const Step& row, const Step& next) noexcept {
   return is_air(next) && next.spindle == row.spindle && gap < at_once;
 }
 
+/// Whether two speeds of the spindle take the same power in air.
+bool is_same_speed(double a, double b) noexcept {
+  constexpr double same = 0.005;
+  return std::abs(a - b) <= same * a;
+}
+
 /// Into the mean of its speed, or of all where the speed does not matter.
 void add_air(const Step& step, const Vector& mean, Reads reads, Idle& idle) {
-  constexpr double same = 0.005;
   const auto at = std::ranges::find_if(idle.speeds, [&](const Idle::AtSpeed& one) {
-    return reads == Reads::forces ||
-           std::abs(one.spindle - step.spindle) <= same * one.spindle;
+    return reads == Reads::forces || is_same_speed(one.spindle, step.spindle);
   });
   Idle::AtSpeed& one = at != idle.speeds.end()
                            ? *at
@@ -296,6 +300,11 @@ std::array<double, 3> Idle::at(double spindle) const noexcept {
   const auto nearest = std::ranges::min_element(
       speeds, {}, [&](const AtSpeed& one) { return std::abs(one.spindle - spindle); });
   return nearest == speeds.end() ? std::array<double, 3>{} : nearest->offset;
+}
+
+bool Idle::has(double spindle) const noexcept {
+  return std::ranges::any_of(
+      speeds, [&](const AtSpeed& one) { return is_same_speed(one.spindle, spindle); });
 }
 
 Recorded by_lines(std::span<const Step> steps, const Recorded& record,
@@ -415,6 +424,11 @@ RecordedSteps over_steps(std::span<const Step> steps, const LaidOver& over) {
     const auto [from, to] = window(step);
     const auto [a, b] = means.within(from, to);
     one.there = b > a && from >= record.time.front() && to <= record.time.back();
+    if (out.idle.found && record.reads != Reads::forces &&
+        !out.idle.has(step.spindle)) {
+      one.there = false;
+      if (step.a_p > 0) out.speed_without_air = step.spindle;
+    }
     if (!one.there) continue;
     one.stretch = over.stretch(a, b);
     for (std::size_t i = a; i < b; ++i) {

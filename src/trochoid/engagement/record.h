@@ -100,12 +100,16 @@ struct Idle {
 
   /// At the nearest of the speeds; 0 where none was found.
   [[nodiscard]] std::array<double, 3> at(double spindle) const noexcept;
+  /// Whether there was air at a speed of the spindle.
+  [[nodiscard]] bool has(double spindle) const noexcept;
 };
 
 /// @brief The record in each step, without what it reads where nothing cuts.
 struct RecordedSteps {
   std::vector<StepRecord> steps;  ///< shape (steps)
   Idle idle;
+  /// Of power and torque a speed of cuts without air, whose steps are left out [rad/s]; 0: none.
+  double speed_without_air = 0.0;
 };
 RecordedSteps over_steps(std::span<const Step> steps, const LaidOver& over);
 

@@ -17,8 +17,8 @@ namespace {
 
 /// Parts that are used at most, and turns of each.
 constexpr std::size_t most_cuts = 8;
-constexpr std::size_t least_turns = 5;
-constexpr std::size_t turns_of_a_cut = 16;
+constexpr double least_turns = 5.0;
+constexpr double turns_of_a_cut = 16.0;
 /// Samples that a tooth needs to show its force.
 constexpr double samples_a_tooth = 8.0;
 /// Turns whose forces differ by no more than this part are alike.
@@ -29,15 +29,21 @@ struct SteadyRows {
   std::size_t from = 0;
   std::size_t to = 0;  ///< behind the last
 
-  [[nodiscard]] std::size_t turns() const noexcept { return to - from; }
+  [[nodiscard]] std::size_t count() const noexcept { return to - from; }
   [[nodiscard]] std::size_t middle() const noexcept { return (from + to) / 2; }
 };
+
+/// Rows like a step that take so many turns.
+std::size_t rows_of(const Step& step, double turns) noexcept {
+  return std::max<std::size_t>(
+      1, static_cast<std::size_t>(std::ceil(turns / step.turns - 1e-6)));
+}
 
 bool can_be_used(const Step& step, std::size_t tool) noexcept {
   const bool bottom = step.cause == Cause::plunge || step.cause == Cause::ramp;
   const std::size_t own = step.tool < 0 ? 0 : static_cast<std::size_t>(step.tool);
-  return own == tool && step.a_p > 0 && step.count == 1 && !bottom && step.flags == 0 &&
-         step.curvature == 0;
+  return own == tool && step.a_p > 0 && step.turns > 0 && step.count == 1 && !bottom &&
+         step.flags == 0 && step.curvature == 0;
 }
 
 bool same_cut(const Step& a, const Step& b) noexcept {
@@ -66,7 +72,9 @@ std::vector<SteadyRows> stretches(std::span<const Step> steps, std::size_t tool,
       }
       const auto less =
           1 + static_cast<std::size_t>(std::ceil(margin / steps[i].duration));
-      if (k - i >= least_turns + 2 * less) out.push_back({i + less, k - less});
+      if (k - i >= rows_of(steps[i], least_turns) + 2 * less) {
+        out.push_back({i + less, k - less});
+      }
     }
     i = k;
   }
@@ -93,8 +101,8 @@ std::vector<SteadyRows> different_ones(std::span<const Step> steps,
   while (out.size() < std::min(most_cuts, all.size())) {
     std::size_t best = 0;
     for (std::size_t i = 1; i < all.size(); ++i) {
-      if (std::pair(distance[i], all[i].turns()) >
-          std::pair(distance[best], all[best].turns())) {
+      if (std::pair(distance[i], all[i].count()) >
+          std::pair(distance[best], all[best].count())) {
         best = i;
       }
     }
@@ -155,7 +163,7 @@ std::optional<SteadyCut> cut_of(const Samples& samples, const Found& found,
   const int teeth = tool.cutter.teeth();
   const double span = n > 1 ? record.time.back() - record.time.front() : 0.0;
   const double turns = span * step.spindle / unit::turn;
-  if (turns < static_cast<double>(least_turns) ||
+  if (turns < 0.9 * least_turns ||
       static_cast<double>(n) < samples_a_tooth * teeth * turns) {
     return std::nullopt;
   }
@@ -188,9 +196,10 @@ std::vector<SteadyCut> steady_cuts(const Job& job, std::span<const Step> steps,
   std::vector<SteadyCut> out;
   for (const SteadyRows& one : chosen) {
     const std::size_t middle = one.middle();
-    const std::size_t half = std::min(one.turns(), turns_of_a_cut) / 2;
-    const Step& first = steps[middle - half];
-    const Step& last = steps[middle + half - 1];
+    const std::size_t rows =
+        std::min(one.count(), rows_of(steps[middle], turns_of_a_cut));
+    const Step& first = steps[middle - rows / 2];
+    const Step& last = steps[middle - rows / 2 + rows - 1];
     const Ask ask = finder.find(steps[middle].step);
     look.sweep_to(look.turns_of(ask) - 1);
     const Samples samples = samples_of(over, idle, first, last);

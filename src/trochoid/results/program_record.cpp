@@ -109,7 +109,9 @@ std::string fit_text(const ProgramRecord& record) {
   const auto& offsets = fit.runout.radial_offsets;
   for (std::size_t j = 1; j < offsets.size() && finds_offsets(fit.options.runout);
        ++j) {
-    const auto& se = fit.radial_offsets_se[j];
+    if (unidentifiable(fit, fmt::format("radial_offsets_mm[{}]", j + 1))) continue;
+    const auto se =
+        j < fit.radial_offsets_se.size() ? fit.radial_offsets_se[j] : std::nullopt;
     row(fmt::format("radial_offsets_um[{}]", j + 1), offsets[j] / unit::um,
         se ? std::optional(*se / unit::um) : std::nullopt);
   }

@@ -84,23 +84,29 @@ std::vector<std::string> unnamed(const cases::NcProgram& nc,
 Tools tools_of(const cases::Case& given, const program::Program& program) {
   const cases::NcProgram& nc = *given.nc.program;
   Tools out;
-  const auto add = [&](const cases::Case& one) {
-    out.tools.push_back(tool_of(one));
-    out.vibrations.push_back(vibration_of(one, out.notes));
+  const engagement::Vibration vibration = vibration_of(given, out.notes);
+  const auto add_own = [&] {
+    out.tools.push_back(tool_of(given));
+    out.vibrations.push_back(vibration);
   };
   if (program.tools.empty()) {
-    add(given);
+    add_own();
     out.own.push_back(0);
   }
   const std::vector<std::string> left = unnamed(nc, program);
   for (const std::string& name : program.tools) {
     if (const auto other = nc.cases_of_tools.find(name);
         other != nc.cases_of_tools.end()) {
-      add(*other->second);
+      std::vector<base::Warning> notes;
+      out.tools.push_back(tool_of(*other->second));
+      out.vibrations.push_back(vibration_of(*other->second, notes));
+      for (const base::Warning& note : notes) {
+        out.notes.push_back({note.code, fmt::format("T{}: {}", name, note.message)});
+      }
       continue;
     }
     out.own.push_back(out.tools.size());
-    add(given);
+    add_own();
     const bool is_left = std::ranges::find(left, name) != left.end();
     const bool known =
         nc.tool_number.text.empty() ? left.size() == 1 : name == nc.tool_number.text;
@@ -130,6 +136,7 @@ void warn_of_other_tools(const cases::NcProgram& nc, const program::Program& pro
   };
   look(nc.tool_number.text);
   for (const auto& [name, of] : nc.cases_of_tools) look(name);
+  for (const cases::ToolName& tool : nc.ignored_tools) look(tool.text);
   if (other.empty()) return;
   warnings.push_back(
       {"tool_not_in_program",

@@ -3,6 +3,7 @@
 #include <trochoid/base/error.h>
 #include <trochoid/base/units.h>
 #include <trochoid/geometry/edge.h>
+#include <trochoid/identification/reliability.h>
 #include <trochoid/numerics/median.h>
 #include <trochoid/signal/axes.h>
 
@@ -198,9 +199,24 @@ double difference_of(const std::vector<double>& a, const std::vector<double>& b)
   return least;
 }
 
+/// Whether the forces in steady cuts tell numbers that one may use.
+bool is_reliable(const results::ProgramRecord& record) {
+  return record.fit && record.fit->ok &&
+         identification::reasons_against(*record.fit).empty();
+}
+
+void warn_of_fit(const results::ProgramRecord& record,
+                 std::vector<base::Warning>& warnings) {
+  if (!record.fit || !record.fit->ok || is_reliable(record)) return;
+  warnings.push_back(
+      {"do_not_use", fmt::format("{}, the forces in its steady cuts: {}", record.file,
+                                 identification::do_not_use(
+                                     identification::reasons_against(*record.fit)))});
+}
+
 void warn_of_runout(const results::ProgramRecord& record, const engagement::Tool& tool,
                     std::vector<base::Warning>& warnings) {
-  if (!record.fit || !record.fit->ok || !chip::feels_runout(tool.chip.model)) return;
+  if (!is_reliable(record) || !chip::feels_runout(tool.chip.model)) return;
   const identification::Fit& fit = *record.fit;
   double se = fit.eccentricity_se.value_or(0.0);
   for (const auto& one : fit.radial_offsets_se) se = std::max(se, one.value_or(0.0));
@@ -224,25 +240,29 @@ void warn_of_runout(const results::ProgramRecord& record, const engagement::Tool
 
 /// What the record tells best: the forces over the angle count the runout, too.
 std::vector<results::RecordCoefficient> best_coefficients(
-    const results::ProgramRecord& record) {
-  std::vector<results::RecordCoefficient> out = record.coefficients;
-  if (!record.fit || !record.fit->ok) return out;
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    const auto& one = record.fit->coefficients[k];
-    out[k].se.reset();
-    if (!one) continue;
-    out[k].found = one->value;
-    out[k].se = one->se;
+    const results::ProgramRecord& record, const force::Law& stated) {
+  if (!is_reliable(record)) return record.coefficients;
+  std::vector<results::RecordCoefficient> out;
+  const auto quantities = force::coefficient_quantities(stated);
+  const std::vector<double> K = force::coefficients(stated);
+  for (std::size_t k = 0; k < quantities.size(); ++k) {
+    out.push_back({quantities[k].key, quantities[k].unit, K[k], K[k], std::nullopt});
+    if (const auto& one = record.fit->coefficients[k]) {
+      out.back().found = one->value;
+      out.back().se = one->se;
+    }
   }
   return out;
 }
 
 void warn_of_coefficients(const results::ProgramRecord& record,
+                          const force::Law& stated,
                           std::vector<base::Warning>& warnings) {
-  const bool fitted = record.fit && record.fit->ok;
+  const bool fitted = is_reliable(record);
   const double factor = fitted ? record.fit->interval_factor : record.factor;
+  const auto best = best_coefficients(record, stated);
   std::vector<std::string> other;
-  for (const results::RecordCoefficient& one : best_coefficients(record)) {
+  for (const results::RecordCoefficient& one : best) {
     const double off = std::abs(one.found - one.stated);
     if (!one.se || off <= factor * *one.se ||
         off <= same_coefficient * std::abs(one.stated)) {
@@ -255,7 +275,7 @@ void warn_of_coefficients(const results::ProgramRecord& record,
   if (other.empty()) return;
   // Power and torque depend on the tangential ones only.
   const bool tangential = record.reads != engagement::Reads::forces;
-  const bool all = std::ranges::all_of(best_coefficients(record), [&](const auto& one) {
+  const bool all = std::ranges::all_of(best, [&](const auto& one) {
     return one.se.has_value() || (tangential && !one.key.starts_with("K_t"));
   });
   warnings.push_back(
@@ -302,12 +322,17 @@ void warn_of_record(const results::ProgramRecord& record,
                      "override, or accelerations that [machine] does not have.",
                      record.file, record.alignment.stretch)});
   }
-  warn_of_coefficients(record, warnings);
   if (!record.recorded.idle.found) {
     warnings.push_back(
         {"no_air", fmt::format("{}: the program has too little air to tell what the "
                                "channels read where nothing cuts.",
                                record.file)});
+  } else if (const double spindle = record.recorded.speed_without_air; spindle > 0) {
+    warnings.push_back(
+        {"no_air", fmt::format("{}: at {:.4g} rpm the program has too little air to "
+                               "tell what the spindle takes there. The cuts at this "
+                               "speed are left out.",
+                               record.file, spindle / unit::rpm)});
   }
 }
 
@@ -346,7 +371,9 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
     const OwnCuts cuts{job, steps, over, own.front()};
     add_coefficients(cuts, out);
     add_fit(cuts, given, out);
+    warn_of_fit(out, warnings);
     warn_of_runout(out, cuts.tool(), warnings);
+    warn_of_coefficients(out, cuts.tool().law, warnings);
   }
   warn_of_record(out, warnings);
   warn_of_feeds(steps, out, warnings);

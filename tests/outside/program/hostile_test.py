@@ -1,5 +1,6 @@
 """What nobody would write by mistake: the program says what is wrong and ends as ever."""
 import json
+import shutil
 import subprocess
 
 from in_folder import InFolder, main, program, simulation
@@ -133,6 +134,8 @@ class Hostile(InFolder):
         self.assertIn("trochoid simulate cut.toml", done.stderr)
         self.assertTrue((self.folder / "cut.simulate/summary.json").exists())
         self.assertEqual(self.run_program("cut.toml", "-q").stderr, "")
+        shutil.copy(self.folder / "cut.toml", self.folder / "CUT.TOML")
+        self.assertIn("trochoid simulate CUT.TOML", self.run_program("CUT.TOML", "--no-report").stderr)
         self.refused("lost.toml", says="lost.toml:1:1: there is no such file")
 
     def test_check_takes_what_every_command_takes(self):

@@ -258,6 +258,73 @@ class Record(InFolder):
         said = self.answer(self.case(dynamometer={"axes": ["power", "torque"]}), code=2)
         self.assertIn("or of power or torque alone", said)
 
+    def power_by_lines(self, blocks, rate, rpm=(RPM, RPM, RPM), idle=lambda rpm: 310, air=True):
+        """A record of power with the lines that ran, of passes in so many blocks each.
+
+        The power is that of the turns which `program` computes. rpm: of each pass."""
+        given = self.case(dynamometer={"axes": ["power"]})
+        lines = ["G21 G90 G17", "T1 M6"]
+        for (y, way, _, feed), speed in zip(PASSES, rpm):
+            a, b = (FIRST, LAST) if way > 0 else (LAST, FIRST)
+            a = a if air or speed == rpm[0] else 7 - 8 * way
+            b = b if air or speed == rpm[0] else 7 + 10.5 * way
+            lines += [f"S{speed} M3", f"G0 X{a} Y{y} Z5.", "G0 Z-2."]
+            lines += [f"G1 X{a + (b - a) * (i + 1) / blocks:.4f} F{feed * speed / RPM:.0f}"
+                      for i in range(blocks)] + ["G0 Z5."]
+        self.write("part.nc", "\n".join(lines + ["M30"]) + "\n")
+        self.answer({k: v for k, v in given.items() if k != "dynamometer"}, measured=False)
+        steps = [(float(row["time_s"]), float(row["power_W"] or 0)) for row in self.rows("steps.csv")]
+        ends, time, chance = [], 0.7, random.Random(4)
+        for row in self.rows("moves.csv"):
+            ends.append((time, time + float(row["time_s"] or 0), row["line"], float(row["spindle_rpm"] or 0)))
+            time = ends[-1][1]
+        out, k = ["time_s,P_W,N_line"], 0
+        for i in range(int((time + 0.5) * rate)):
+            t = i / rate
+            _, _, line, speed = next((one for one in ends if one[0] <= t < one[1]), (0, 0, "0", rpm[0]))
+            while k + 1 < len(steps) and steps[k + 1][0] <= t - 0.7:
+                k += 1
+            cut = steps[k][1] if t > 0.7 else 0
+            out.append(f"{t!r},{idle(speed or rpm[0]) + cut + chance.gauss(0, 1)!r},{line}")
+        self.write("record.csv", "\n".join(out) + "\n")
+        return given
+
+    def test_lines_of_few_samples_say_nothing_of_their_feed(self):
+        given = self.power_by_lines(60, 50)
+        result, warnings = self.answer(given, line_column="N_line")
+        self.assertNotIn("feed_override", warnings)
+        self.assertNotIn("other_coefficients", warnings)
+        found = {c["key"]: c["found"] for c in result["record"]["coefficients"] if "found" in c}
+        self.assertAlmostEqual(found["K_tc_MPa"], 2620, delta=60)
+
+    def test_a_logger_that_stood_still_is_no_feed(self):
+        """Two seconds are missing between two lines, and a retract took two seconds longer."""
+        self.make_record(overrides=[1.0, 1.0, 1.0])
+        head, *rows = (self.folder / "record.csv").read_text().splitlines()
+        last = max(i for i, row in enumerate(rows) if row.endswith(",6"))
+        later = [f"{float(row.split(',', 1)[0]) + 2},{row.split(',', 1)[1]}" for row in rows[last + 1:]]
+        self.write("record.csv", "\n".join([head] + rows[:last + 1] + later) + "\n")
+        _, warnings = self.answer(self.case(**self.AXES), line_column="N_line")
+        self.assertNotIn("feed_override", warnings)
+        self.assertNotIn("other_coefficients", warnings)
+
+    def test_cuts_at_a_speed_without_air_are_left_out(self):
+        given = self.power_by_lines(1, 50, rpm=(4000, 4000, 6000), air=False,
+                                    idle=lambda rpm: 310 if rpm < 5000 else 420)
+        result, warnings = self.answer(given, line_column="N_line")
+        self.assertIn("at 6000 rpm", warnings["no_air"])
+        for one in result["record"]["coefficients"]:
+            if "found" in one:
+                self.assertAlmostEqual(one["found"], one["stated"],
+                                       delta=2 * (one["high"] - one["found"]))
+
+    def test_steps_of_part_of_a_turn(self):
+        self.make_record()
+        given = self.case(**self.AXES, program={"file": "part.nc", "tool_number": 1, "step_turns": 0.25})
+        result, _ = self.answer(given)
+        self.assertGreaterEqual(len(result["record"]["cuts"]), 3)
+        self.assertGreater(min(cut["turns"] for cut in result["record"]["cuts"]), 5)
+
     def test_what_cannot_be_laid_over(self):
         self.make_record()
         chance = random.Random(2)

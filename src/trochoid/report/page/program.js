@@ -252,14 +252,14 @@ function fitOfCuts(record) {
   const half = (value) => (isNumber(value) ? `± ${fixed(value, 2)}` : '');
   const rows = Object.entries(fit.coefficients).filter(([, one]) => one)
     .map(([key, one]) => [el('code', {}, key), number(one.value, 4), half(one.high - one.value)]);
-  const offsets = fit.runout?.radial_offsets_mm || [];
-  offsets.forEach((offset, j) => {
-    const se = fit.runout.radial_offsets_se_mm?.[j];
-    if (j > 0) rows.push([`tooth ${j + 1} stands out by, µm`, number(1000 * offset, 3), half(2000 * se)]);
+  const length = (label, value, se) => {  // without an error it was given, or is not known
+    if (isNumber(se)) rows.push([label, number(1000 * value, 3), half(1000 * fit.interval_factor * se)]);
+  };
+  const runout = fit.runout || {};
+  (runout.radial_offsets_mm || []).forEach((offset, j) => {
+    if (j > 0) length(`tooth ${j + 1} stands out by, µm`, offset, runout.radial_offsets_se_mm?.[j]);
   });
-  if (fit.runout?.eccentricity_mm > 0) {
-    rows.push(['eccentricity, µm', number(1000 * fit.runout.eccentricity_mm, 3), half(2000 * fit.runout.eccentricity_se_mm)]);
-  }
+  length('eccentricity, µm', runout.eccentricity_mm, runout.eccentricity_se_mm);
   const lines = [...new Set(record.cuts.map((cut) => cut.line))].join(', ');
   return el('div', {}, prose(`Coefficients and runout from the force over the angle in ${record.cuts.length} steady cuts (lines ${lines}). ` +
     `${fixed(100 * fit.unexplained, 2)} % of the force is not explained. `, el('code', {}, 'material.toml'),
