@@ -394,18 +394,24 @@ class Surroundings::Search {
   [[nodiscard]] std::vector<int> times_covered(
       const std::vector<std::size_t>& ends) const {
     const std::size_t n = ends.size();
-    const auto end_at = [&](double theta) {  // the last that is not above
-      const auto above = std::ranges::upper_bound(
-          ends, theta + 1e-12, {}, [&](std::size_t i) { return candidates_[i].theta; });
-      return static_cast<std::size_t>(above - ends.begin() - 1);
+    const auto theta_of = [&](std::size_t i) { return candidates_[i].theta; };
+    const double first = theta_of(ends.front());
+    const auto end_at = [&](double angle) {  // the last that is not above
+      double theta = wrapped(angle);
+      // Rounding may put an end on the other side of the cut.
+      if (theta < first - tie) theta += unit::turn;
+      if (theta > first + unit::turn - tie) return std::size_t{0};
+      const auto above = std::ranges::upper_bound(ends, theta + 1e-12, {}, theta_of);
+      return static_cast<std::size_t>(
+          std::max<std::ptrdiff_t>(above - ends.begin() - 1, 0));
     };
     std::vector<int> steps(n + 1);
     int whole = 0;  // over the place where the circle is cut open
     for (const geometry::Arc& arc : covered_) {
-      const double turns = arc.to >= first_theta + unit::turn ? unit::turn : 0.0;
       const std::size_t from = end_at(arc.from);
-      const std::size_t to = end_at(arc.to - turns);
-      if (turns > 0) ++whole;
+      const std::size_t to = end_at(arc.to);
+      if (from == to && arc.to - arc.from < std::numbers::pi) continue;
+      if (to <= from) ++whole;
       ++steps[from];
       --steps[to];
     }

@@ -183,6 +183,34 @@ TEST(Swept, ACircleOnTheAxisOfAnOldSlotOfItsOwnMeetsNothing) {  // [N-3]
   }
 }
 
+// What covers half of the circle begins or ends straight behind, where the circle is cut
+// open: rounding puts it on either side.
+TEST(Swept, AnArcMayBeginWhereTheCircleIsCutOpen) {  // [N-3]
+  constexpr double R = 5e-3;
+  const std::vector<Wall> walls{Wall::upright(R)};
+  for (int i = 0; i < 500; ++i) {
+    const double direction = 0.0127 * i;
+    const double c = std::cos(direction);
+    const double s = std::sin(direction);
+    for (const double side : {-R, R}) {
+      const double x = -s * side;
+      const double y = c * side;
+      const std::vector<Move> moves{
+          move(MoveKind::rapid, x - 0.02 * c, y - 0.02 * s, -0.002),
+          move(MoveKind::line, x + 0.02 * c, y + 0.02 * s, -0.002)};
+      const Swept swept(stock::path(moves, 0.1), box, walls);
+      const Surroundings around(
+          swept,
+          {.tip = {0, 0, -0.002}, .direction = direction, .turns = 1e9, .last = 9}, R);
+      const auto arcs = around.arcs(1e-3, R);
+      ASSERT_EQ(arcs.size(), 1u) << direction;
+      EXPECT_NEAR(arcs[0].arc.to - arcs[0].arc.from, pi, 1e-6) << direction;
+      const double middle = 0.5 * (arcs[0].arc.from + arcs[0].arc.to);
+      EXPECT_NEAR(std::cos(middle), side > 0 ? -1.0 : 1.0, 1e-6) << direction;
+    }
+  }
+}
+
 TEST(Swept, WhatIsAboveTheTipOrLaterIsNotSwept) {  // [N-2]
   const std::vector<Move> moves{move(MoveKind::rapid, -0.04, 0, -0.002),
                                 move(MoveKind::line, 0.04, 0, -0.002)};
