@@ -13,9 +13,10 @@ namespace trochoid::engagement {
 namespace {
 
 /// Angles of a turn at which forces are looked at, beside those where they have a kink.
-constexpr int angles = 240;
-/// The same without the kinks, of edges whose forces change smoothly.
-constexpr int few_angles = 144;
+constexpr int angles = 144;
+/// About the largest forces steps are divided so often, into so many parts.
+constexpr int rounds = 2;
+constexpr int between = 4;
 constexpr double beside_jump = 1e-9;  ///< [rad]
 
 /// Coefficients of a cubic in the height above the tip.
@@ -53,9 +54,8 @@ double larger(double a, double b) noexcept {
 /// @param every_event  kinks too, not only jumps
 std::vector<double> angles_of(const force::ArcTurn& turn, bool every_event) {
   std::vector<double> phi;
-  const int n = every_event ? angles : few_angles;
-  for (int i = 0; i < n; ++i) {
-    phi.push_back(unit::turn * i / n);
+  for (int i = 0; i < angles; ++i) {
+    phi.push_back(unit::turn * i / angles);
   }
   if (!every_event && !turn.jumps()) return phi;
   for (const double event : turn.events()) {
@@ -68,6 +68,104 @@ std::vector<double> angles_of(const force::ArcTurn& turn, bool every_event) {
   }
   std::ranges::sort(phi);
   return phi;
+}
+
+double in_plane(const force::ToothLoads& F) noexcept {
+  return F.x * F.x + F.y * F.y;
+}
+
+/// Forces at ascending angles of a turn.
+struct Curve {
+  std::vector<double> phi;                      ///< [rad]
+  std::vector<force::ToothLoads> all;           ///< of all teeth
+  std::vector<std::vector<double>> each_tooth;  ///< squares of F_xy [N^2]
+};
+
+Curve curve_of(const force::ArcTurn& teeth, std::vector<double> phi) {
+  Curve out{std::move(phi), {}, {}};
+  out.all.resize(out.phi.size());
+  for (std::size_t j = 0; j < teeth.teeth(); ++j) {
+    const std::vector<force::ToothLoads> one = teeth.loads_at(j, out.phi);
+    std::vector<double>& squares = out.each_tooth.emplace_back();
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      out.all[i] += one[i];
+      squares.push_back(in_plane(one[i]));
+    }
+  }
+  return out;
+}
+
+/// Where the force of each tooth, that of all and the torque are largest.
+std::vector<std::size_t> tops_of(const Curve& curve) {
+  std::vector<std::size_t> out;
+  for (const std::vector<double>& squares : curve.each_tooth) {
+    const auto top = std::ranges::max_element(squares);
+    out.push_back(static_cast<std::size_t>(top - squares.begin()));
+  }
+  const auto add = [&](auto top) {
+    out.push_back(static_cast<std::size_t>(top - curve.all.begin()));
+  };
+  add(std::ranges::max_element(curve.all, {}, in_plane));
+  add(std::ranges::max_element(
+      curve.all, {}, [](const force::ToothLoads& F) { return std::abs(F.torque); }));
+  std::ranges::sort(out);
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// Angles about the largest forces: kinks, and some between neighbours.
+std::vector<double> near_tops(const Curve& curve, std::span<const double> events) {
+  std::vector<double> out;
+  const std::vector<double>& phi = curve.phi;
+  const std::size_t last = phi.size() - 1;
+  for (const std::size_t i : tops_of(curve)) {
+    const double before = i > 0 ? phi[i - 1] : phi[last] - unit::turn;
+    const double after = i < last ? phi[i + 1] : phi[0] + unit::turn;
+    const auto add = [&](double angle) {
+      out.push_back(angle - unit::turn * std::floor(angle / unit::turn));
+    };
+    for (int k = 1; k < between; ++k) {
+      const double part = static_cast<double>(k) / between;
+      add(before + part * (phi[i] - before));
+      add(phi[i] + part * (after - phi[i]));
+    }
+    for (const double turn : {-unit::turn, 0.0, unit::turn}) {
+      const auto first = std::ranges::upper_bound(events, before + turn);
+      const auto end = std::ranges::lower_bound(events, after + turn);
+      for (auto e = first; e < end; ++e) add(*e);
+    }
+  }
+  std::ranges::sort(out);
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// Two curves as one.
+Curve merged(const Curve& a, const Curve& b) {
+  Curve out;
+  out.each_tooth.resize(a.each_tooth.size());
+  for (std::size_t i = 0, k = 0; i < a.phi.size() || k < b.phi.size();) {
+    const bool first = k == b.phi.size() || (i < a.phi.size() && a.phi[i] <= b.phi[k]);
+    const Curve& from = first ? a : b;
+    const std::size_t at = first ? i++ : k++;
+    out.phi.push_back(from.phi[at]);
+    out.all.push_back(from.all[at]);
+    for (std::size_t j = 0; j < out.each_tooth.size(); ++j) {
+      out.each_tooth[j].push_back(from.each_tooth[j][at]);
+    }
+  }
+  return out;
+}
+
+/// Forces of a turn, as finely as its largest ones need it.
+Curve fine_curve_of(const force::ArcTurn& teeth, bool every_event) {
+  Curve curve = curve_of(teeth, angles_of(teeth, every_event));
+  if (teeth.jumps()) return curve;
+  const std::vector<double> events = teeth.events();
+  for (int i = 0; i < rounds; ++i) {
+    curve = merged(curve, curve_of(teeth, near_tops(curve, events)));
+  }
+  return curve;
 }
 
 /// Squares of the deflection of the tip and of the bending moment at the gauge length.
@@ -134,7 +232,7 @@ force::Setup setup_of(const Turn& turn, const Tool& tool) {
 TurnLoads loads_of(const Turn& turn, const Tool& tool) {
   TurnLoads out;
   TurnForces& F = out.forces;
-  F.peak_of_tooth.assign(static_cast<std::size_t>(tool.cutter.teeth()), 0.0);
+  F.peak_of_tooth.resize(static_cast<std::size_t>(tool.cutter.teeth()));
   const bool plain = is_plain(tool);
   if (turn.layers.empty() || !(turn.f_z > 0 || (!plain && turn.fall > 0))) {
     return out;
@@ -147,21 +245,15 @@ TurnLoads loads_of(const Turn& turn, const Tool& tool) {
   const force::ArcTurn teeth(
       setup, tool.law,
       {.within = within, .heights = moments, .fall = turn.fall, .cones = !plain});
-  const std::vector<double> phi = angles_of(teeth, plain);
-  std::vector<force::ToothLoads> all(phi.size());
-  for (std::size_t j = 0; j < teeth.teeth(); ++j) {
-    const std::vector<force::ToothLoads> one = teeth.loads_at(j, phi);
-    double largest = 0.0;
-    for (std::size_t i = 0; i < phi.size(); ++i) {
-      largest = std::max(largest, one[i].x * one[i].x + one[i].y * one[i].y);
-      all[i] += one[i];
-    }
-    F.peak_of_tooth[j] = std::sqrt(largest);
-  }
+  const Curve turned = fine_curve_of(teeth, plain);
+  std::ranges::transform(turned.each_tooth, F.peak_of_tooth.begin(),
+                         [](const std::vector<double>& squares) {
+                           return std::sqrt(std::ranges::max(squares));
+                         });
   const Cubic compliance = tip_compliance(tool.body, height);
   std::vector<TurnLoads::InPlane> curve;
   Bending most;
-  for (const force::ToothLoads& here : all) {
+  for (const force::ToothLoads& here : turned.all) {
     curve.push_back({here.x, here.y});
     F.peak_xy = std::max(F.peak_xy, std::hypot(here.x, here.y));
     F.peak[2] = larger(F.peak[2], here.z);

@@ -35,7 +35,7 @@ constexpr Closest closest_at_jump{1e-12, 1e-12};
 constexpr double longest_arc_panel = 1.6;
 constexpr double arc_tolerance = 1e-7;
 /// The same where layers are cones: those stand for a curve, and err more than this.
-constexpr double cone_tolerance = 1e-4;
+constexpr double cone_tolerance = 1e-6;
 /// How far from its ends a piece is looked at, as a part of it.
 constexpr double inner_part = 1e-9;
 /// A tool that only falls is fed sideways by next to nothing [m/rad].

@@ -84,6 +84,23 @@ TEST(Steps, AToothWithoutLagIsLargestJustBeforeItLeaves) {  // [N-7]
   EXPECT_NEAR(step.forces.peak_of_tooth[1], most[1], 1e-3 * most[1]);
 }
 
+// The edge covers the same windows of theta, whichever way it winds.
+TEST(Steps, ALeftHandHelixHasThePeaksOfARightHandOne) {  // [N-7]
+  for (const double helix : {10.0, 30.0, 45.0}) {
+    for (const double y : {43.0, 44.7, -42.0}) {
+      const TurnForces left =
+          at(side_pass(y), end_mill(10, 2, -helix), block, 3, 0.5).forces;
+      const TurnForces right =
+          at(side_pass(y), end_mill(10, 2, helix), block, 3, 0.5).forces;
+      const double most = right.peak_xy;
+      EXPECT_NEAR(left.peak_xy, most, 5e-4 * most) << helix << " " << y;
+      EXPECT_NEAR(left.torque_peak, right.torque_peak, 5e-4 * right.torque_peak);
+      EXPECT_NEAR(left.peak_of_tooth[0], left.peak_of_tooth[1], 5e-4 * most);
+      EXPECT_NEAR(left.peak_of_tooth[0], right.peak_of_tooth[0], 5e-4 * most);
+    }
+  }
+}
+
 TEST(Steps, ATurnedPathTurnsItsForces) {  // [N-10]
   const Tool tool = end_mill(10, 2, 30, {0, -8});
   const Step along = at(side_pass(43), tool, block, 3, 0.4);
