@@ -63,6 +63,22 @@ struct Alignment {
 /// @return nothing where nothing is cut, or the record is shorter than ten turns
 std::optional<Alignment> align(std::span<const Step> steps, const Recorded& record);
 
+/// A record with the times of its program, which the machine ran with other feeds.
+struct OtherFeed {
+  Recorded record;
+  double start = 0.0;   ///< of the program, in the time of the record [s]
+  double slower = 1.0;  ///< how many times as long every feed move took
+};
+
+/// @brief Lay a record over a program all of whose feeds were slower by one factor, from 0.4
+/// to 2.5.
+/// @eq N-28 t_record = start + t_rapid + slower t_feed, where the means of the steps correlate
+///          most
+/// @src derived
+/// @return nothing as of align; rapids take as long as in the program
+std::optional<OtherFeed> at_other_feed(std::span<const Step> steps,
+                                       const Recorded& record);
+
 /// A record, and where it lies over its program.
 struct LaidOver {
   Recorded record;
@@ -71,6 +87,8 @@ struct LaidOver {
   /// @brief How many seconds of the record a second of the program took.
   /// @param from, to  samples, `to` behind the last
   [[nodiscard]] double stretch(std::size_t from, std::size_t to) const noexcept;
+  /// When the record had a time of the program [s].
+  [[nodiscard]] double clock_at(double time) const noexcept;
 };
 
 /// @brief How long a record takes to show what is cut: slow channels lag behind and show means.
@@ -83,6 +101,7 @@ std::array<double, 3> mean_of(const Step& step, Reads reads) noexcept;
 /// What was recorded in a step.
 struct StepRecord {
   bool there = false;            ///< false: the record does not have it
+  double time = 0.0;             ///< of its middle in the record [s]
   double stretch = 1.0;          ///< seconds of the record for a second of the program
   std::array<double, 3> mean{};  ///< as Recorded::value
   double peak_xy = 0.0;          ///< of forces [N]

@@ -149,10 +149,7 @@ const Columns<RecordRows>& record_columns() {
         [](R r, std::size_t i) { return r.steps[i].line; }},
        {"time_s", "of the program", [](R r, std::size_t i) { return r.steps[i].time; }},
        {"record_time_s", "of the record",
-        [](R r, std::size_t i) {
-          return r.record.alignment.start +
-                 r.record.alignment.stretch * r.steps[i].time;
-        }},
+        [](R r, std::size_t i) { return r.record.recorded.steps[i].time; }},
        {"Fx_mean_N",
         "as measured, mean of the step in the axes of the program; empty: "
         "not in the record",

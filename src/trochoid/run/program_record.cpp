@@ -20,9 +20,7 @@ namespace trochoid::run {
 namespace {
 
 /// A record that agrees less is not of this program.
-constexpr double least_correlation = 0.5;
-/// Of power and torque, whose idle part may pass for cuts.
-constexpr double least_of_one_channel = 0.85;
+constexpr double least_correlation = 0.85;
 /// A clock that differs more is said.
 constexpr double same_clock = 0.005;
 /// Feeds and coefficients that differ more from the case are said.
@@ -90,7 +88,20 @@ engagement::Recorded recorded_of(const cases::Case& given) {
 struct Placed {
   std::optional<engagement::LineNumbers> numbers;
   engagement::LaidOver over;
+  double start = 0.0;   ///< where all feeds were slower: of the program [s]
+  double slower = 1.0;  ///< by this factor
+
+  /// In the time of the record.
+  [[nodiscard]] engagement::Alignment alignment() const noexcept {
+    engagement::Alignment out = over.alignment;
+    out.start += start;
+    out.stretch *= slower;
+    return out;
+  }
 };
+
+/// Other feeds are tried where the programmed ones do not agree so well.
+constexpr double good_correlation = 0.995;
 
 /// By lines or N numbers: by those with which the record agrees better.
 Placed placed(std::span<const engagement::Step> steps, engagement::Recorded recorded) {
@@ -100,15 +111,24 @@ Placed placed(std::span<const engagement::Step> steps, engagement::Recorded reco
     return Placed{numbers,
                   {std::move(timed), alignment.value_or(engagement::Alignment{})}};
   };
-  if (recorded.line.empty()) return at(std::nullopt, std::move(recorded));
+  const auto agrees = [](const Placed& one) { return one.over.alignment.correlation; };
+  if (recorded.line.empty()) {
+    Placed as_programmed = at(std::nullopt, std::move(recorded));
+    if (agrees(as_programmed) > good_correlation) return as_programmed;
+    auto other = engagement::at_other_feed(steps, as_programmed.over.record);
+    if (!other) return as_programmed;
+    Placed slower = at(std::nullopt, std::move(other->record));
+    slower.start = other->start;
+    slower.slower = other->slower;
+    return agrees(slower) > agrees(as_programmed) ? std::move(slower)
+                                                  : std::move(as_programmed);
+  }
   const auto by = [&](LineNumbers numbers) {
     return at(numbers, engagement::by_lines(steps, recorded, numbers));
   };
   Placed lines = by(LineNumbers::line);
   Placed blocks = by(LineNumbers::block);
-  return blocks.over.alignment.correlation > lines.over.alignment.correlation
-             ? std::move(blocks)
-             : std::move(lines);
+  return agrees(blocks) > agrees(lines) ? std::move(blocks) : std::move(lines);
 }
 
 double size_of(const std::array<double, 3>& F) {
@@ -285,11 +305,23 @@ void warn_of_coefficients(const results::ProgramRecord& record,
                    all ? "" : ", if the others are as stated")});
 }
 
-/// Lines that took longer or shorter than in the program, where the record has lines.
+/// Whether some steps took longer than others beside the program.
+bool feeds_differ(const results::ProgramRecord& record) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0.0;
+  for (const engagement::StepRecord& one : record.recorded.steps) {
+    if (!one.there) continue;
+    least = std::min(least, one.stretch);
+    most = std::max(most, one.stretch);
+  }
+  return most > least * (1 + same_feed);
+}
+
+/// Lines that took longer or shorter than in the program.
 void warn_of_feeds(std::span<const engagement::Step> steps,
                    const results::ProgramRecord& record,
                    std::vector<base::Warning>& warnings) {
-  if (!record.numbers) return;
+  if (!record.numbers && !feeds_differ(record)) return;  // record_stretch tells
   std::vector<std::string> lines;
   std::uint32_t last = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -319,7 +351,8 @@ void warn_of_record(const results::ProgramRecord& record,
     warnings.push_back(
         {"record_stretch",
          fmt::format("{}: the machine took {:.3f} times as long as the program: a feed "
-                     "override, or accelerations that [machine] does not have.",
+                     "override, or accelerations that [machine] does not have. "
+                     "Coefficients are found with the feeds that ran.",
                      record.file, record.alignment.stretch)});
   }
   if (!record.recorded.idle.found) {
@@ -348,18 +381,16 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
   const engagement::LaidOver& over = record.over;
   results::ProgramRecord out{.file = given.measurements.front().source.file.name,
                              .numbers = record.numbers,
-                             .alignment = over.alignment,
+                             .alignment = record.alignment(),
                              .reads = over.record.reads};
-  const double least = over.record.reads == engagement::Reads::forces
-                           ? least_correlation
-                           : least_of_one_channel;
-  if (over.alignment.correlation < least) {
+  if (over.alignment.correlation < least_correlation) {
     warnings.push_back(
         {"record_does_not_fit",
          fmt::format(
              "{}: its {} not fit this program (correlation {:.2f}). "
              "Check the axes of the dynamometer, and that the record is of "
-             "this program.",
+             "this program. Feeds that the operator changed often need a column with "
+             "the line that ran (line_column).",
              out.file,
              out.reads == engagement::Reads::forces ? "forces do" : "channel does",
              over.alignment.correlation)});

@@ -87,8 +87,8 @@ class Record(InFolder):
             TORQUES[key] = self.summary("turn")["result"]["exact_mean_torque_Nm"]
         return TURNS[key]
 
-    def make_record(self, before=0.7, stretch=1.0, offset=(3.0, -5.0, 2.0), noise=2.0, overrides=None):
-        """As a table dynamometer reads it: the reaction, offsets, noise.
+    def make_record(self, before=0.7, stretch=1.0, offset=(3.0, -5.0, 2.0), noise=2.0, overrides=None, drift=0.0):
+        """As a table dynamometer reads it: the reaction, offsets that drift, noise.
 
         overrides: by how much each pass takes longer, and a column with the line that runs."""
         self.answer(self.case(), measured=False)
@@ -119,7 +119,7 @@ class Record(InFolder):
                     now = [p + u * (q - p) for p, q in zip(one[k], one[(k + 1) % len(one)])]
                     F = [way * now[0], way * now[1], now[2]]
             lines.append(f"{t!r}," + ",".join(
-                repr(o - f + chance.gauss(0, noise)) for o, f in zip(offset, F)) +
+                repr(o + drift * t / time - f + chance.gauss(0, noise)) for o, f in zip(offset, F)) +
                 (f",{line(t)}" if overrides else ""))
         self.write("record.csv", "\n".join(lines) + "\n")
 
@@ -158,6 +158,16 @@ class Record(InFolder):
         self.assertAlmostEqual(found["K_tc_MPa"]["found"], 2620, delta=0.03 * 2620)
         self.assertLess(found["K_tc_MPa"]["high"] - found["K_tc_MPa"]["low"], 0.2 * 2620)
 
+    def test_channels_that_drift(self):
+        """What they read in air before and after a cut tells what they read in it."""
+        self.make_record(drift=25.0)
+        result, _ = self.answer(self.case(**self.AXES))
+        found = {c["key"]: c for c in result["record"]["coefficients"]}
+        for key in ("K_tc_MPa", "K_rc_MPa", "K_re_N_per_mm"):
+            self.assertAlmostEqual(found[key]["found"], TRUE[key], delta=max(
+                0.03 * TRUE[key], 2 * (found[key]["high"] - found[key]["found"])), msg=key)
+        self.assertLess(found["K_rc_MPa"]["high"] - found["K_rc_MPa"]["low"], 0.3 * 1560)
+
     def test_a_machine_that_is_slower(self):
         self.make_record(stretch=1.04)
         result, warnings = self.answer(self.case(**self.AXES))
@@ -167,9 +177,7 @@ class Record(InFolder):
     def test_lines_that_the_record_has(self):  # [N-25]
         """A machine whose feeds were turned up and down lies over the program by its lines."""
         self.make_record(overrides=[1.3, 0.8, 1.6])
-        by_time, _ = self.answer(self.case(**self.AXES))
         by_lines, warnings = self.answer(self.case(**self.AXES), line_column="N_line")
-        self.assertLess(by_time.get("record", {"correlation": 0})["correlation"], 0.95)
         record = by_lines["record"]
         self.assertEqual(record["numbers"], "line")
         self.assertGreater(record["correlation"], 0.95)
@@ -221,6 +229,50 @@ class Record(InFolder):
             programmed = PASSES[[6, 10, 14].index(cut[0])][3] / RPM / 2
             self.assertAlmostEqual(cut[1]["feed_per_tooth_mm"] * slower, programmed,
                                    delta=0.01 * programmed)
+
+    def test_a_record_without_lines_whose_feeds_were_all_turned(self):  # [N-28]
+        """Rapids take as long as ever; the chips of the fit are those of the feed that ran."""
+        for slower in (1.3, 0.8):
+            self.make_record(overrides=[slower] * 3)
+            result, warnings = self.answer(self.case(**self.AXES))
+            record = result["record"]
+            self.assertAlmostEqual(record["stretch"], slower, delta=0.01 * slower)
+            self.assertAlmostEqual(record["start_s"], 0.7, delta=0.05)
+            self.assertGreater(record["correlation"], 0.97)
+            self.assertIn("times as long", warnings["record_stretch"])
+            self.assertNotIn("do_not_use", warnings)
+            found = record["fit"]["coefficients"]
+            self.assertAlmostEqual(found["K_tc_MPa"]["value"], 2620, delta=0.01 * 2620)
+            self.assertAlmostEqual(found["K_te_N_per_mm"]["value"], 7, delta=0.3)
+            for cut in record["cuts"]:
+                programmed = PASSES[[6, 10, 14].index(cut["line"])][3] / RPM / 2
+                self.assertAlmostEqual(cut["feed_per_tooth_mm"] * slower, programmed,
+                                       delta=0.01 * programmed)
+            for a, b, row in self.ends:
+                for step in self.rows("measured_steps.csv"):
+                    if step["line"] == row["line"]:
+                        self.assertTrue(a - 0.05 < float(step["record_time_s"]) < b + 0.05)
+
+    def test_a_record_without_lines_whose_feeds_were_turned_one_by_one(self):  # [N-28]
+        for overrides in ([1, 1, 1.3], [1, 1.5, 1], [0.7, 1, 1], [1.3, 0.8, 1.6]):
+            self.make_record(overrides=overrides)
+            result, warnings = self.answer(self.case(**self.AXES))
+            record = result["record"]
+            self.assertAlmostEqual(record["start_s"], 0.7, delta=0.05)
+            self.assertAlmostEqual(record["fit"]["coefficients"]["K_tc_MPa"]["value"], 2620,
+                                   delta=0.035 * 2620)
+            for line, slower in zip((6, 10, 14), overrides):
+                if slower != 1:
+                    self.assertIn(f"line {line} (", warnings["feed_override"])
+
+    def test_power_at_several_speeds_of_the_spindle(self):
+        """What air takes depends on the speed, more than what the cuts take."""
+        given = self.power_by_lines(1, 50, rpm=(4000, 6000, 5000), idle=lambda rpm: 300 * (rpm / 4000) ** 3)
+        result, warnings = self.answer(given)
+        self.assertNotIn("record_does_not_fit", warnings)
+        self.assertAlmostEqual(result["record"]["start_s"], 0.7, delta=0.1)
+        found = {c["key"]: c["found"] for c in result["record"]["coefficients"] if "found" in c}
+        self.assertAlmostEqual(found["K_tc_MPa"], 2620, delta=60)
 
     def test_the_power_of_the_spindle(self):
         """Fifty readings a second of a spindle that takes 310 W in air tell K_tc and K_te."""
