@@ -39,7 +39,8 @@ std::string shortest(Real value) {
   scientific += fmt::format("e{}{:02d}", exponent < 0 ? '-' : '+', std::abs(exponent));
   std::string point_form;
   if (exponent < 0) {
-    point_form = "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
+    point_form =
+        "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + digits;
   } else if (exponent >= n - 1) {
     // Exactly, as of a whole number of so many digits.
     point_form = fmt::format("{:.0f}", std::abs(value));
@@ -69,7 +70,7 @@ const char* after_digits(const char* at, const char* last) {
 }
 
 /// Behind the longest number that a text begins with; its begin: there is none.
-const char* end_of_number(const char* first, const char* last) {
+const char* end_of_number(const char* first, const char* last, bool may_have_power) {
   const char* at = first != last && *first == '-' ? first + 1 : first;
   for (const char* word : {"infinity", "inf", "nan"}) {
     const std::size_t n = std::strlen(word);
@@ -85,7 +86,7 @@ const char* end_of_number(const char* first, const char* last) {
     digits += end - whole - 1;
   }
   if (digits == 0) return first;
-  if (end != last && (*end == 'e' || *end == 'E')) {
+  if (may_have_power && end != last && (*end == 'e' || *end == 'E')) {
     const char* power = end + 1;
     if (power != last && (*power == '+' || *power == '-')) ++power;
     const char* behind = after_digits(power, last);
@@ -112,7 +113,12 @@ to_chars_result to_chars(char* first, char* last, double value,
 }
 
 from_chars_result from_chars(const char* first, const char* last, double& value) {
-  const char* end = end_of_number(first, last);
+  return from_chars(first, last, value, chars_format::general);
+}
+
+from_chars_result from_chars(const char* first, const char* last, double& value,
+                             chars_format format) {
+  const char* end = end_of_number(first, last, format != chars_format::fixed);
   if (end == first) return {first, errc::invalid_argument};
   errno = 0;
   const double read = strtod(string(first, end).c_str(), nullptr);

@@ -7,7 +7,9 @@
 #include <charconv>
 #include <functional>
 #include <iterator>
+#include <memory>
 #include <ranges>
+#include <type_traits>
 #include <utility>
 
 namespace std {  // NOLINT(cert-dcl58-cpp)
@@ -17,6 +19,14 @@ to_chars_result to_chars(char* first, char* last, float value);
 to_chars_result to_chars(char* first, char* last, double value, chars_format format,
                          int precision);
 from_chars_result from_chars(const char* first, const char* last, double& value);
+from_chars_result from_chars(const char* first, const char* last, double& value,
+                             chars_format format);
+
+template <class Array>
+requires is_unbounded_array_v<Array> unique_ptr<Array> make_unique_for_overwrite(
+    size_t n) {
+  return unique_ptr<Array>(new remove_extent_t<Array>[n]);
+}
 
 namespace ranges {
 
@@ -69,8 +79,8 @@ bool none_of(R&& r, P predicate, Proj of = {}) {
   return std::none_of(ranges::begin(r), ranges::end(r), web::holds_for(predicate, of));
 }
 
-template <class R, class C>
-auto adjacent_find(R&& r, C compare) {
+template <class R, class C = ranges::equal_to>
+auto adjacent_find(R&& r, C compare = {}) {
   return std::adjacent_find(ranges::begin(r), ranges::end(r), std::move(compare));
 }
 
@@ -81,9 +91,29 @@ auto find(R&& r, const T& value, Proj of = {}) {
   });
 }
 
+template <class I, class P, class Proj = identity>
+requires input_iterator<I>
+auto find_if(I first, I last, P predicate, Proj of = {}) {
+  return std::find_if(first, last, web::holds_for(predicate, of));
+}
+
 template <class R, class P, class Proj = identity>
+requires ranges::range<R>
 auto find_if(R&& r, P predicate, Proj of = {}) {
   return std::find_if(ranges::begin(r), ranges::end(r), web::holds_for(predicate, of));
+}
+
+template <class I, class P, class Proj = identity>
+requires input_iterator<I>
+auto find_if_not(I first, I last, P predicate, Proj of = {}) {
+  return std::find_if_not(first, last, web::holds_for(predicate, of));
+}
+
+template <class R, class P, class Proj = identity>
+requires ranges::range<R>
+auto find_if_not(R&& r, P predicate, Proj of = {}) {
+  return std::find_if_not(ranges::begin(r), ranges::end(r),
+                          web::holds_for(predicate, of));
 }
 
 template <class R, class T, class Proj = identity>
@@ -115,14 +145,44 @@ bool is_sorted(R&& r, C compare = {}, Proj of = {}) {
   return std::is_sorted(ranges::begin(r), ranges::end(r), web::less_by(compare, of));
 }
 
+template <class R, class I>
+void nth_element(R&& r, I nth) {
+  std::nth_element(ranges::begin(r), nth, ranges::end(r));
+}
+
+template <class R, class P, class Proj = identity>
+auto partition_point(R&& r, P predicate, Proj of = {}) {
+  return std::partition_point(ranges::begin(r), ranges::end(r),
+                              web::holds_for(predicate, of));
+}
+
+template <class R, class T, class C = ranges::less, class Proj = identity>
+auto lower_bound(R&& r, const T& value, C compare = {}, Proj of = {}) {
+  return std::lower_bound(
+      ranges::begin(r), ranges::end(r), value, [&](auto&& a, const T& b) {
+        return static_cast<bool>(
+            std::invoke(compare, std::invoke(of, std::forward<decltype(a)>(a)), b));
+      });
+}
+
 template <class R, class T, class C = ranges::less, class Proj = identity>
 auto upper_bound(R&& r, const T& value, C compare = {}, Proj of = {}) {
-  return std::upper_bound(ranges::begin(r), ranges::end(r), value,
-                          [&](const T& a, auto&& b) {
-                            return static_cast<bool>(std::invoke(
-                                compare, a,
-                                std::invoke(of, std::forward<decltype(b)>(b))));
-                          });
+  return std::upper_bound(
+      ranges::begin(r), ranges::end(r), value, [&](const T& a, auto&& b) {
+        return static_cast<bool>(
+            std::invoke(compare, a, std::invoke(of, std::forward<decltype(b)>(b))));
+      });
+}
+
+template <class R, class T>
+auto equal_range(R&& r, const T& value) {
+  const auto both = std::equal_range(ranges::begin(r), ranges::end(r), value);
+  return ranges::subrange(both.first, both.second);
+}
+
+template <class R, class T>
+bool binary_search(R&& r, const T& value) {
+  return std::binary_search(ranges::begin(r), ranges::end(r), value);
 }
 
 template <class R, class C = ranges::less, class Proj = identity>
@@ -148,6 +208,11 @@ auto min(R&& r, C compare = {}, Proj of = {}) {
 }
 
 template <class R, class C = ranges::less, class Proj = identity>
+auto max(R&& r, C compare = {}, Proj of = {}) {
+  return *ranges::max_element(r, compare, of);
+}
+
+template <class R, class C = ranges::less, class Proj = identity>
 auto minmax(R&& r, C compare = {}, Proj of = {}) {
   const auto both = ranges::minmax_element(r, compare, of);
   return min_max_result<std::decay_t<decltype(*both.min)>>{*both.min, *both.max};
@@ -157,6 +222,11 @@ template <class R, class O>
 auto copy(R&& r, O out) {
   const auto end = std::copy(ranges::begin(r), ranges::end(r), out);
   return in_out_result<decltype(ranges::end(r)), O>{ranges::end(r), end};
+}
+
+template <class I, class O>
+void copy_n(I first, std::iter_difference_t<I> n, O out) {
+  std::copy_n(first, n, out);
 }
 
 template <class R, class O, class P, class Proj = identity>
@@ -201,19 +271,33 @@ void rotate(R&& r, I middle) {
 }
 
 template <class R>
+void reverse(R&& r) {
+  std::reverse(ranges::begin(r), ranges::end(r));
+}
+
+template <class R>
+auto distance(R&& r) {
+  return std::distance(ranges::begin(r), ranges::end(r));
+}
+
+template <class R>
 auto unique(R&& r) {
   const auto end = std::unique(ranges::begin(r), ranges::end(r));
   return ranges::subrange(end, ranges::end(r));
 }
 
-template <class A, class B, class P = ranges::equal_to>
-bool equal(A&& a, B&& b, P same = {}) {
+template <class A, class B, class P = ranges::equal_to, class ProjA = identity,
+          class ProjB = identity>
+bool equal(A&& a, B&& b, P same = {}, ProjA of_a = {}, ProjB of_b = {}) {
   return std::equal(ranges::begin(a), ranges::end(a), ranges::begin(b), ranges::end(b),
-                    same);
+                    [&](auto&& x, auto&& y) {
+                      return static_cast<bool>(std::invoke(same, std::invoke(of_a, x),
+                                                           std::invoke(of_b, y)));
+                    });
 }
 
 template <class R, class O, class F>
-  requires ranges::range<R>
+requires ranges::range<R>
 auto transform(R&& r, O out, F f) {
   return std::transform(ranges::begin(r), ranges::end(r), out,
                         [&](auto&& x) -> decltype(auto) {
@@ -222,7 +306,7 @@ auto transform(R&& r, O out, F f) {
 }
 
 template <class A, class B, class O, class F>
-  requires ranges::range<A> && ranges::range<B>
+requires ranges::range<A> && ranges::range<B>
 auto transform(A&& a, B&& b, O out, F f) {
   auto second = ranges::begin(b);
   const auto end = ranges::end(b);

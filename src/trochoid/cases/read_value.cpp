@@ -331,7 +331,7 @@ struct ValueReader {
     const auto heights = pair_in(*z, 0);
     const auto size = number(*radius, 0);
     if (size && !(*size > 0)) return refuse(*radius, 0, "a radius that is not above 0");
-    if (center && heights && size) target->emplace(*center, *size, *heights);
+    if (center && heights && size) *target = StockCylinder{*center, *size, *heights};
   }
   std::optional<ToolName> tool_in(const Node& at, std::size_t entry) const {
     const auto* text = std::get_if<std::string>(&at.value);

@@ -85,17 +85,18 @@ std::string late_text(std::span<const StartedColumn> columns, double first) {
 }  // namespace
 
 Starts align_starts(std::span<StartedColumn> columns, double rate) {
-  const auto [earliest, latest] =
-      std::ranges::minmax(columns, {}, &StartedColumn::start);
-  Starts out{.first = latest.start, .problem = {}, .note = {}};
-  if ((latest.start - earliest.start) * rate <= whole_step) {
+  const auto ends = std::ranges::minmax(columns, {}, &StartedColumn::start);
+  const double earliest = ends.min.start;
+  const double latest = ends.max.start;
+  Starts out{.first = latest, .problem = {}, .note = {}};
+  if ((latest - earliest) * rate <= whole_step) {
     out.first = columns.front().start;
     return out;
   }
-  const std::string late = late_text(columns, earliest.start);
+  const std::string late = late_text(columns, earliest);
   std::vector<Place> places;
   const auto steps_late = [&](const StartedColumn& column) {
-    return (latest.start - column.start) * rate;
+    return (latest - column.start) * rate;
   };
   const bool between = std::ranges::any_of(columns, [&](const StartedColumn& column) {
     return steps_late(column) < 1e15 && place_of(steps_late(column)).between();

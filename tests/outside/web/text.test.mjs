@@ -40,6 +40,17 @@ test('the page has every command of the program', () => {
   for (const name of tasks) assert.ok(new RegExp(`const commands = '.*\\b${name}\\b`).test(bundle), name);
 });
 
+/** All sources of the library. */
+const sources = () => fs.readdirSync(`${root}/src/trochoid`, { recursive: true }).filter((name) => /\.(cpp|h)$/.test(name))
+  .map((name) => fs.readFileSync(`${root}/src/trochoid/${name}`, 'utf8'));
+
+test('the compiler of the page gets every algorithm that the sources use', () => {
+  const added = fs.readFileSync(`${root}/cmake/web/libcxx13.h`, 'utf8');
+  const used = new Set(sources().flatMap((text) => [...text.matchAll(/std::ranges::(\w+)\(/g)].map(([, name]) => name)));
+  const lacking = [...used].filter((name) => !new RegExp(`^(auto|bool|void) ${name}\\(`, 'm').test(added));
+  assert.deepEqual(lacking, []);
+});
+
 const comments = (text) => text.split('\n').filter((line) => line.startsWith('#')).length;
 
 test('a key set to what it is leaves the case as it was', () => {
