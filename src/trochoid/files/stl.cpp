@@ -1,6 +1,6 @@
-#include <trochoid/base/error.h>
 #include <trochoid/base/read_text.h>
 #include <trochoid/base/units.h>
+#include <trochoid/files/numeric_table.h>
 #include <trochoid/files/program_file.h>
 
 #include <fmt/core.h>
@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::size_t head_bytes = 84;
 constexpr std::size_t face_bytes = 50;
-
-[[noreturn]] void refuse(const FileRef& file, const std::string& why) {
-  throw base::InputError({fmt::format("{}: {}", file.path, why)});
-}
 
 std::uint32_t count_in(std::string_view bytes) noexcept {
   std::uint32_t count = 0;
@@ -81,7 +77,7 @@ std::vector<stock::Triangle> text_faces(std::string_view text, const FileRef& fi
   std::size_t corners = 0;
   while (const auto word = words.next()) {
     if (*word == "endloop" && corners % 3 != 0) {
-      refuse(file,
+      refuse(file.path,
              fmt::format("line {}: a face must have three corners", words.line()));
     }
     if (*word != "vertex") continue;
@@ -91,14 +87,14 @@ std::vector<stock::Triangle> text_faces(std::string_view text, const FileRef& fi
       const char* end = number.data() + number.size();
       const auto read = std::from_chars(number.data(), end, coordinate);
       if (number.empty() || read.ec != std::errc{} || read.ptr != end) {
-        refuse(file,
+        refuse(file.path,
                fmt::format("line {}: a vertex must have three numbers", words.line()));
       }
       coordinate *= unit::mm;
     }
     ++corners;
   }
-  if (corners % 3 != 0) refuse(file, "the file ends within a face");
+  if (corners % 3 != 0) refuse(file.path, "the file ends within a face");
   return faces;
 }
 
@@ -107,26 +103,29 @@ std::vector<stock::Triangle> text_faces(std::string_view text, const FileRef& fi
 std::vector<stock::Triangle> read_stl(const FileRef& file) {
   std::optional<std::string> read;
   if (!file.bytes) read = base::read_text(file.path);
-  if (!file.bytes && !read) refuse(file, "cannot be read");
+  if (!file.bytes && !read) refuse(file.path, "cannot be read");
   const std::string_view bytes = file.bytes ? *file.bytes : *read;
   const bool text = bytes.substr(0, 5) == "solid";
   if (!is_binary(bytes) && !text) {
-    refuse(file,
+    refuse(file.path,
            "this is no STL: must begin with \"solid\", or be as long as the number of "
            "its faces says");
   }
   const auto faces = is_binary(bytes) ? binary_faces(bytes) : text_faces(bytes, file);
-  if (faces.empty()) refuse(file, "it has no face");
+  if (faces.empty()) refuse(file.path, "it has no face");
   for (const stock::Triangle& face : faces) {
     for (const stock::Point& p : face) {
       const double size = std::hypot(p[0], p[1], p[2]);
-      if (!(size < 100.0)) refuse(file, "a corner is farther than 100 m from zero");
+      if (!(size < 100.0)) {
+        refuse(file.path, "a corner is farther than 100 m from zero");
+      }
     }
   }
   if (const std::size_t open = stock::open_edges(faces); open > 0) {
-    refuse(file, fmt::format("the surface is not closed: {} edges have a face on one "
-                             "side only; close it where the file was made",
-                             open));
+    refuse(file.path,
+           fmt::format("the surface is not closed: {} edges have a face on one "
+                       "side only; close it where the file was made",
+                       open));
   }
   return faces;
 }
