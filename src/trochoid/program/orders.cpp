@@ -164,6 +164,12 @@ bool dwells(const Block& block) noexcept {
   });
 }
 
+/// Whether the number of a program stands where one belongs.
+bool leads(const Block& block, const Word& word) noexcept {
+  const Word* first = block.words.data();
+  return &word == first || (first->letter == 'N' && &word == first + 1);
+}
+
 void sort_letter(Sorting& s, const Word& word) {
   const char c = word.letter;
   const bool sinumerik = s.habits.dialect == Dialect::sinumerik;
@@ -186,6 +192,12 @@ void sort_letter(Sorting& s, const Word& word) {
     return s.complain(
         word, Fault::unknown,
         fmt::format("{} is not known in Sinumerik{}", s.shown(word), may_be_ignored));
+  }
+  if (c == 'O' && !leads(s.block, word)) {
+    return s.complain(word, Fault::number,
+                      fmt::format("{}: the number of a program begins its block; is it "
+                                  "the digit zero?",
+                                  s.shown(word)));
   }
   if (!word.has_value && !(c == 'T' && !word.inside.empty())) {
     return s.complain(word, Fault::number,
