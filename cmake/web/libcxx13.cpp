@@ -52,12 +52,28 @@ std::string shortest(Real value) {
          (scientific.size() < point_form.size() ? scientific : point_form);
 }
 
+/// Whether the shortest form of a number has no exponent whatever its digits are.
+bool has_no_power(double value) {
+  const double size = std::abs(value);
+  return size == 0.0 || (size >= 1e-3 && size < 1e5);
+}
+
 std::to_chars_result put(char* first, char* last, const std::string& text) {
   if (static_cast<std::size_t>(last - first) < text.size()) {
     return {last, std::errc::value_too_large};
   }
   std::memcpy(first, text.data(), text.size());
   return {first + text.size(), std::errc{}};
+}
+
+/// Tables are mostly numbers that need no choice: without a string for each.
+template <class Real>
+std::to_chars_result put_shortest(char* first, char* last, Real value) {
+  if (!has_no_power(value)) return put(first, last, shortest(value));
+  const auto room = static_cast<std::size_t>(last - first);
+  const auto written = fmt::format_to_n(first, room, "{}", value);
+  if (written.size > room) return {last, std::errc::value_too_large};
+  return {written.out, std::errc{}};
 }
 
 bool is_digit(char c) {
@@ -100,11 +116,11 @@ const char* end_of_number(const char* first, const char* last, bool may_have_pow
 namespace std {
 
 to_chars_result to_chars(char* first, char* last, double value) {
-  return put(first, last, shortest(value));
+  return put_shortest(first, last, value);
 }
 
 to_chars_result to_chars(char* first, char* last, float value) {
-  return put(first, last, shortest(value));
+  return put_shortest(first, last, value);
 }
 
 to_chars_result to_chars(char* first, char* last, double value,

@@ -36,7 +36,8 @@ int deliver(const results::Answer& answer, const Options& options) {
   const std::filesystem::path folder = result_folder(options, answer.command);
   const std::string summary = results::summary_json(answer);
   try {
-    const ProgressLine progress(talk_of(options), "Writing the results");
+    ProgressLine progress(talk_of(options), "Writing the results");
+    progress.tell_if_alone();
     results::write_folder(folder, answer,
                           options.no_report ? "" : report::html(answer, summary));
   } catch (const std::runtime_error& error) {  // the place is wrong, not the program

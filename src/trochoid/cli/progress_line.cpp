@@ -69,6 +69,11 @@ void ProgressLine::operator()(const run::Step& step) {
   }
 }
 
+void ProgressLine::tell_if_alone() {
+  const std::lock_guard lock(mutex_);
+  if (talk_ != Talk::nothing && !teller_.joinable()) tell();
+}
+
 std::string ProgressLine::doing() {
   const std::lock_guard lock(mutex_);
   const double now = seconds();

@@ -30,6 +30,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
+  /// @brief Tells what is done now where no thread will: before work that tells nothing.
+  void tell_if_alone();
   /// From any thread.
   void operator()(const run::Step& step);
   /// What was told last, in a few words.
