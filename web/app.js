@@ -93,13 +93,21 @@ function take(text) {
   check();
 }
 
+/** The form of another case from its beginning; that of the same case where it changed. */
+function placeForm(form) {
+  const old = $('form').firstElementChild;
+  rememberFields(form);
+  if (page.opened !== null || old === null) $('form').replaceChildren(form);
+  else renew(old, form);
+}
+
 function showForm() {
   const read = given();
   $('form').classList.toggle('stale', read === null);
   if (read === null) return;
   const open = new Set([...document.querySelectorAll('#form details[open][data-table]')].map((d) => d.dataset.table));
   const focused = document.activeElement?.id;
-  $('form').replaceChildren(caseForm({
+  placeForm(caseForm({
     schema: page.schema, given: read, tables: tablesOfTask(), opened: page.opened ?? open, files: page.files, sweep,
     change: (...all) => take(changed(...all)), preview: (...all) => preview(changed(...all)),
     add: (name) => take(`${page.text.replace(/\n*$/, '\n')}\n[[${name}]]\n`),
@@ -108,7 +116,7 @@ function showForm() {
   page.opened = null;
   $('drawing').style.minHeight = '';
   showDrawings(read);
-  if (focused) $(focused)?.focus();
+  if (focused && document.activeElement.id !== focused) $(focused)?.focus();
 }
 
 function showDrawings(read) {

@@ -312,6 +312,33 @@ test('a broken file is refused in the words of the program', { skip }, async () 
   await context.close();
 });
 
+test('Tab goes on from a field that was changed, and what was open stays open', { skip }, async () => {
+  const { page, context } = await opened();
+  const at = () => page.evaluate(() => document.activeElement.id);
+  const after = (id) => page.evaluate((one) => {
+    const all = [...document.querySelectorAll('#form input, #form select')].filter((node) => node.getClientRects().length > 0);
+    return all[all.findIndex((node) => node.id === one) + 1].id;
+  }, id);
+  await page.evaluate(() => { document.querySelector('[data-table=tool] .more').open = true; });
+  for (const [id, text] of [['tool.teeth', '3'], ['tool.diameter_mm', '1/2"'], ['tool.helix_deg', '31,5'], ['tool.corner_radius_mm', '0.5']]) {
+    const next = await after(id);
+    await page.fill(`[id="${id}"]`, text);
+    await page.press(`[id="${id}"]`, 'Tab');
+    assert.equal(await at(), next, `after ${id}`);
+    assert.equal(await page.isVisible('[data-table=tool] .more .field'), true, `after ${id}`);
+  }
+  assert.equal(await page.inputValue('[id="tool.diameter_in"]'), '0.5');
+  await page.fill('[id="tool.helix_deg"]', '32');
+  await page.press('[id="tool.helix_deg"]', 'Enter');
+  assert.equal(await at(), 'tool.helix_deg');
+  for (const text of ['3.5', '3,50']) {
+    await page.fill('[id="cut.axial_depth_mm"]', text);
+    await page.press('[id="cut.axial_depth_mm"]', 'Tab');
+    assert.equal(await page.inputValue('[id="cut.axial_depth_mm"]'), '3.5');  // as the case has it
+  }
+  await context.close();
+});
+
 test('the keyboard is enough, and 400 pixels', { skip }, async () => {
   const { page, context } = await opened({ viewport: { width: 400, height: 800 } });
   const wide = await page.evaluate(() => document.documentElement.scrollWidth);
