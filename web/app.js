@@ -129,7 +129,7 @@ function showFiles() {
   const names = [...page.files.keys()].filter((n) => n !== page.name).sort();
   $('files').replaceChildren(...names.map((name) => element('li', {}, name, ' ',
     element('button', { type: 'button', class: 'quiet', title: `Forget ${name}`,
-                        onclick: () => { page.files.delete(name); keptFiles.forget(name); showFiles(); check(); } }, '×'))));
+                        onclick: () => { forgetFile(name); showFiles(); check(); } }, '×'))));
   $('files-dropped').replaceChildren(...names.map((value) => element('option', { value })));
 }
 
@@ -197,45 +197,10 @@ function show(answer, folder, seconds) {
   $('answer').scrollIntoView({ behavior: 'smooth', block: 'start' });
 }
 
-async function dropped(list) {
-  for (const file of list) {
-    const bytes = new Uint8Array(await file.arrayBuffer());
-    if (/\.toml$/i.test(file.name) && !/^(material|modes|actuator|truth)/.test(file.name)) {
-      page.name = file.name;
-      page.example = undefined;
-      page.opened = new Set(['tool', 'cut']);
-      take(utf8Text.decode(bytes));
-      continue;
-    }
-    page.files.set(file.name, bytes);
-    keptFiles.put(file.name, bytes);
-    nameFile(file.name);
-  }
-  showFiles();
-  showForm();
-  check();
-}
-
-/** A measurement that was dropped takes the place of a file that is not there. */
-function nameFile(name) {
-  const read = given();
-  for (const table of ['measurement', 'surface_measurement', 'measured_frf']) {
-    const place = (read?.[table] ?? []).findIndex((entry) => entry.file !== undefined && !page.files.has(entry.file));
-    if (place >= 0 && tablesOfTask().includes(table)) return take(withKey(page.text, `${table}[${place + 1}]`, 'file', JSON.stringify(name)));
-  }
-  for (const table of ['frf', 'step']) {
-    if (read?.[table]?.file !== undefined && !page.files.has(read[table].file)) {
-      return take(withKey(page.text, table, 'file', JSON.stringify(name)));
-    }
-  }
-  return undefined;
-}
-
 /** What the next command may take from an answer, among the files: numbers, not pictures. */
 function useAnswer() {
   for (const [name, bytes] of Object.entries(page.answer.files).filter(([one]) => /\.(toml|json)$/.test(one))) {
-    page.files.set(`${page.answer.folder}/${name}`, bytes);
-    keptFiles.put(`${page.answer.folder}/${name}`, bytes);
+    keepFile(`${page.answer.folder}/${name}`, bytes);
   }
   showFiles();
   check();

@@ -339,6 +339,47 @@ test('Tab goes on from a field that was changed, and what was open stays open', 
   await context.close();
 });
 
+/** A file as it is dropped. */
+const upload = (name, text) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
+const read = (name) => fs.readFileSync(path.join('examples', name), 'utf8');
+
+test('an NC program is dropped with its case and its material, and mistakes in it are told with line and column', { skip }, async () => {
+  const { page, seen, context } = await opened();
+  await page.check('#tasks input[value=program]');
+  const good = read('pocket/part.nc');
+  const wrong = good.replace('\nX10.700', '\nX1O.700');
+  const line = wrong.split('\n').findIndex((one) => one.includes('X1O')) + 1;
+  await page.setInputFiles('#pick', [upload('al7075_t6.toml', read('materials/al7075_t6.toml')), upload('case.toml', read('pocket/case.toml')),
+                                     upload('part.nc', wrong)]);
+  const mistakes = () => page.textContent('#mistakes');
+  await page.waitForFunction(() => /part\.nc/.test(document.getElementById('mistakes').textContent));
+  assert.match(await mistakes(), new RegExp(`part\\.nc:${line}:3: O\\.700: `));
+  assert.deepEqual(await page.evaluate(() => [...window.trochoidPage.files.keys()].sort()), ['../materials/al7075_t6.toml', 'part.nc']);
+  await page.setInputFiles('#pick', upload('part.nc', good));
+  await page.waitForFunction(() => document.getElementById('state').textContent === 'No mistakes found.');
+  await page.click('button[title="Forget part.nc"]');
+  await page.locator('[data-key="program.file"] .mistake').waitFor({ state: 'visible' });
+  await page.setInputFiles('#pick', upload('other.nc', good));
+  await page.waitForFunction(() => document.getElementById('state').textContent === 'No mistakes found.');
+  assert.match(await page.inputValue('#text'), /file = "other\.nc"/);
+  const answer = await answerOf(page);
+  assert.match(answer.said, /Answered/);
+  assert.match(answer.printed, /48 moves, 45 of them fed/);
+  assert.deepEqual(seen.complaints, []);
+  await context.close();
+});
+
+test('records take the places that the case has for them, in whatever order they come', { skip }, async () => {
+  const { page, context } = await opened();
+  await page.evaluate(() => take(`${page.text}\n[[measurement]]\nfile = "b.csv"\n`));
+  await page.evaluate(() => take(withKey(page.text, 'measurement[1]', 'file', '"a.csv"')));
+  await page.setInputFiles('#pick', ['b.csv', 'a.csv'].map((name) => upload(name, 't,Fx\n0,1\n')));
+  await page.waitForFunction(() => window.trochoidPage.files.size >= 2);
+  const text = await page.inputValue('#text');
+  assert.match(text, /"a\.csv"[^]*"b\.csv"/);
+  await context.close();
+});
+
 test('the keyboard is enough, and 400 pixels', { skip }, async () => {
   const { page, context } = await opened({ viewport: { width: 400, height: 800 } });
   const wide = await page.evaluate(() => document.documentElement.scrollWidth);
