@@ -4,9 +4,11 @@
 /** The case of this task, to come back to. */
 const draft = () => ({ text: page.text, name: page.name, example: page.example });
 
+const openedAtFirst = ['tool', 'cut', 'measurement[1]', 'program', 'stock'];
+
 function choose(task, text) {
   page.task = task;
-  page.opened = new Set(['tool', 'cut', 'measurement[1]']);
+  page.opened = new Set(openedAtFirst);
   document.querySelectorAll('#tasks input').forEach((input) => { input.checked = input.value === task; });
   const mine = Object.keys(page.examples).filter((name) => name.startsWith(`${task} `));
   $('example').replaceChildren(element('option', { value: '' }, 'an example …'),

@@ -10,16 +10,17 @@ function shape(name, attributes, text) {
   return node;
 }
 
-/** @param given a case, as read @returns a picture, or null without a tool or of one that cannot be */
+/** @param given a case, as read @returns a picture, or null without a tool and a cut or of those that cannot be */
 function drawCut(given) {
+  if (given.cut === undefined) return null;
   const tool = inMm(given.tool ?? {});
-  const cut = inMm(given.cut ?? {});
+  const cut = inMm(given.cut);
   const stock = isDrawable(tool) ? stockOf(cut, tool.diameter_mm / 2) : null;
   if (stock === null) return null;
   const [low, high] = stock;
   const R = 62;
   const svg = shape('svg', { viewBox: '-130 -92 260 184', role: 'img', class: 'cut-drawing' });
-  svg.append(shape('title', {}, `${tool.teeth} teeth, ${tool.diameter_mm} mm, ${cut.engagement ?? 'no cut'}`));
+  svg.append(shape('title', {}, `${tool.teeth} teeth, ${tool.diameter_mm} mm, ${cut.engagement ?? 'slot'}`));
   const y = (value) => -value * R;
   const x = (value) => (Math.abs(value) < 1 ? R * Math.sqrt(1 - value * value) : 0);
   svg.append(shape('path', {

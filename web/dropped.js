@@ -70,7 +70,7 @@ async function dropped(list) {
   const arrived = await Promise.all([...list].map(async (file) => [file.name, new Uint8Array(await file.arrayBuffer())]));
   const chosen = caseAmong(arrived);
   if (chosen !== undefined) {
-    Object.assign(page, { name: chosen[0], example: undefined, opened: new Set(['tool', 'cut']) });
+    Object.assign(page, { name: chosen[0], example: undefined, opened: new Set(openedAtFirst) });
     take(utf8Text.decode(chosen[1]));
   }
   const files = arrived.filter((one) => one !== chosen);

@@ -276,6 +276,7 @@ test('what no case may hold is not drawn, and breaks nothing', () => {
   noPage();
   const draw = (given) => { const picture = toolPicture(tablesDrawn(given)); return picture && painted(picture, 800); };
   assert.ok(drawCut(sound) && draw(sound));
+  assert.equal(drawCut({ ...sound, cut: undefined }), null, 'an NC program has no cut');
   for (const teeth of [7.25, 1e9, 65, 0, -3, NaN, '4', null]) {
     const given = { ...sound, tool: { ...sound.tool, teeth } };
     assert.equal(drawCut(given), null, `${teeth} teeth`);
