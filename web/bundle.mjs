@@ -17,16 +17,18 @@ function filesOf(folder, prefix = '') {
   return Object.fromEntries(fs.readdirSync(folder, { withFileTypes: true }).flatMap((entry) => {
     const file = path.join(folder, entry.name);
     if (entry.isDirectory()) return /\.\w+$/.test(entry.name) ? [] : Object.entries(filesOf(file, `${prefix}${entry.name}/`));
-    return ['README.md', 'make.py'].includes(entry.name) ? [] : [[prefix + entry.name, fs.readFileSync(file).toString('base64')]];
+    return /(^README\.md|\.py)$/.test(entry.name) ? [] : [[prefix + entry.name, fs.readFileSync(file).toString('base64')]];
   }));
 }
 
-/** Files of an example, and those of others that its cases include. */
+/** Files of an example, those of others that its cases include, and the materials among them. */
 function filesOfExample(folder) {
   const files = filesOf(folder);
   for (const name of Object.keys(files).filter((one) => one.endsWith('.toml'))) {
-    for (const [, other] of text(folder, name).matchAll(/^include = "\.\.\/(\w+)\/.*\.toml"/gm)) {
-      Object.assign(files, filesOf(path.join(root, 'examples', other), `../${other}/`));
+    for (const [, other, included] of text(folder, name).matchAll(/^include = "\.\.\/(\w+)\/(.*\.toml)"/gm)) {
+      const all = filesOf(path.join(root, 'examples', other), `../${other}/`);
+      const wanted = `../${other}/${included}`;
+      Object.assign(files, other === 'materials' ? { [wanted]: all[wanted] } : all);
     }
   }
   return files;
@@ -47,8 +49,8 @@ function examples() {
     if (!fs.existsSync(path.join(folder, 'README.md'))) continue;
     const runs = text(folder, 'README.md').matchAll(new RegExp(`(?:trochoid|run) (${commands}) (?:examples/${name}/)?(\\S+\\.toml)`, 'g'));
     for (const [, command, file] of runs) {
-      if (command === 'sweep') all[`${command} ${name}/${file}`] = { file, files: filesOfExample(folder), first: needed(text(folder, file)) };
-      else if (fs.existsSync(path.join(folder, file))) all[`${command} ${name}/${file}`] = { file, files: filesOfExample(folder) };
+      if (!fs.existsSync(path.join(folder, file))) continue;
+      all[`${command} ${name}/${file}`] = { file, files: filesOfExample(folder), first: needed(text(folder, file)) };
     }
   }
   return all;
