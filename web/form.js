@@ -14,9 +14,12 @@ function element(name, attributes = {}, ...children) {
 /** The alternatives that a key of the schema has. */
 const formsOf = (schema) => schema.anyOf ?? schema.oneOf ?? [schema];
 
-const unitOf = (schema) => /\[([^\]]+)\]/.exec(schema.description ?? '')?.[1] ?? '';
+/** The unit ends what is said of a key, before what is usual; other brackets are tables and lists. */
+const unitText = /\s*\[([^[\]]+)\](?=$|; default)/;
 
-const helpOf = (schema) => (schema.description ?? '').replace(/\s*\[[^\]]+\]/, '');
+const unitOf = (schema) => unitText.exec(schema.description ?? '')?.[1] ?? '';
+
+const helpOf = (schema) => (schema.description ?? '').replace(unitText, '');
 
 /** The range in words: `above 0, at most 64`. */
 function rangeOf(schema) {
@@ -173,5 +176,5 @@ function showMistakes(form, mistakes) {
 }
 
 if (typeof module !== 'undefined') {
-  module.exports = { typed, mistakesOf, rangeOf, unitOf };
+  module.exports = { typed, mistakesOf, rangeOf, unitOf, helpOf };
 }

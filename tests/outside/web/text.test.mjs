@@ -19,7 +19,7 @@ const { seriesColor, isDrawable, stockOf, profileOf, radiusAt, teethOf, edgeSeen
   `(() => { ${scriptOfReports(root)}\nreturn ${namesOfReports}; })()`);
 Object.assign(globalThis, { inMm, seriesColor, isDrawable, stockOf });
 const { drawCut, tablesDrawn } = need(`${root}/web/drawing.js`);
-const { typed, mistakesOf, rangeOf, unitOf } = need(`${root}/web/form.js`);
+const { typed, mistakesOf, rangeOf, unitOf, helpOf } = need(`${root}/web/form.js`);
 const { zipOf } = need(`${root}/web/files.js`);
 
 function cases() {
@@ -114,6 +114,16 @@ test('what is typed is what TOML takes', () => {
   assert.equal(typed('170, 190', schema.properties.tool.properties.pitch_deg), '[170, 190]');
   assert.equal(rangeOf(teeth), 'from 1, at most 64');
   assert.equal(unitOf(schema.properties.tool.properties.diameter_mm), 'mm');
+});
+
+test('units are told from tables and lists in brackets', () => {
+  const { program, limits, stability, tool } = JSON.parse(fs.readFileSync(`${root}/docs/formats/case.schema.json`, 'utf8')).properties;
+  assert.equal(unitOf(program.properties.tool_number), '');
+  assert.match(helpOf(program.properties.tool_number), /every T that \[program\] names/);
+  assert.equal(unitOf(limits.properties.bending_moment_Nm), 'N m');
+  assert.equal(helpOf(limits.properties.bending_moment_Nm), 'at gauge_length_mm of [tool]; default: no limit');
+  assert.equal(unitOf(stability.properties.spindle_rpm), 'rpm');
+  assert.equal(helpOf(tool.properties.gauge_length_mm), 'height above the tip at which the bending moment is wanted');
 });
 
 test('mistakes are told by the key they belong to', () => {
