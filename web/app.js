@@ -150,7 +150,8 @@ async function check() {
   const rest = showMistakes($('form'), answer.code === 0 ? [] : mistakesOf(answer.err));
   $('mistakes').replaceChildren(...rest.map(({ line }) => element('li', {}, line)));
   $('checked').textContent = answer.code === 0 ? answer.out : '';
-  $('state').textContent = answer.code === 0 ? 'No mistakes found.' : 'There are mistakes. Each one is shown at its field.';
+  $('state').textContent = answer.code === 0 ? 'No mistakes found.'
+    : `There are mistakes. ${rest.length === 0 ? 'Each one is shown at its field.' : 'Those without a field are listed here.'}`;
 }
 
 function say(text, kind = '') {
