@@ -56,7 +56,10 @@ const same = 1e-5;
 const small = 1e-3;
 const coarse = { 'zeroth_order.csv': 1e-3, 'lobes.csv': 2e-3 };
 const coarser = { 'stability measured_frf/case.toml': { 'summary.json': 1e-3 },
-                  'identify st52_slot/case.toml': { 'fitted.csv': 1e-3, 'residual.csv': 1e-3 } };
+                  'identify st52_slot/case.toml': { 'fitted.csv': 1e-3, 'residual.csv': 1e-3 },
+                  'program ball_finish/case.toml': { 'summary.json': 1e-4 } };
+// A cell of a height field is cut or is not: rounding decides it, and then all of its row differs.
+const rowsDecided = { 'program ball_finish/case.toml': 0.1 };  // of all rows of a table
 
 const number = /^-?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 
@@ -67,7 +70,7 @@ function difference(a, b, name) {
   const left = split(a);
   const right = split(b);
   assert.equal(left.length, right.length, `${name}: another form`);
-  const scale = Math.max(...left.filter((w) => number.test(w)).map((w) => Math.abs(Number(w))), 0);
+  const scale = left.filter((w) => number.test(w)).reduce((most, w) => Math.max(most, Math.abs(Number(w))), 0);
   let worst = { apart: 0, words: '' };
   left.forEach((word, i) => {
     if (word === right[i]) return;
@@ -78,12 +81,27 @@ function difference(a, b, name) {
   return worst;
 }
 
+/** The part of the rows that differ by more than numbers do. */
+function rowsApart(a, b, name) {
+  const [left, right] = [a, b].map((text) => text.split('\n'));
+  assert.equal(left.length, right.length, `${name}: another number of rows`);
+  const isApart = (row, i) => {
+    try {
+      return difference(row, right[i], name).apart >= same;
+    } catch {
+      return true;  // another word
+    }
+  };
+  return left.filter(isApart).length / left.length;
+}
+
 const withoutCommit = (text) => text.replace(/"(commit|version)": "[^"]*"/g, '').replace(/\(?commit [0-9a-f]+\)?/g, '');
 
 test('every example answers as the program does', { skip }, async () => {
   const { page, seen, context } = await opened();
   const names = await page.evaluate(() => Object.keys(window.trochoidPage.examples));
-  assert.ok(names.length >= 20, `${names.length} examples`);
+  assert.ok(names.length >= 50, `${names.length} examples`);
+  assert.deepEqual(await page.evaluate(() => Object.values(window.trochoidPage.examples).flatMap(({ files }) => Object.keys(files)).filter((one) => one.endsWith('.py'))), []);
   const temporary = fs.mkdtempSync(path.join(os.tmpdir(), 'page-'));
   fs.cpSync('examples', temporary, { recursive: true, filter: (file) => !/\.[a-z]+$/.test(file) || !fs.statSync(file).isDirectory() });
   const otherwise = [];
@@ -112,6 +130,11 @@ test('every example answers as the program does', { skip }, async () => {
       const ours = withoutCommit(answer.files[one]);
       const theirs = withoutCommit(fs.readFileSync(path.join(temporary, folder, out, one), 'utf8'));
       equal += ours === theirs ? 1 : 0;
+      if (rowsDecided[name] && one.endsWith('.csv')) {
+        const part = rowsApart(theirs, ours, `${name} ${one}`);
+        if (part > rowsDecided[name]) otherwise.push(`${name} ${one}: ${part} of the rows`);
+        continue;
+      }
       const { apart, words } = difference(theirs, ours, `${name} ${one}`);
       if (apart >= (coarser[name]?.[one] ?? coarse[one] ?? same)) otherwise.push(`${name} ${one}: ${apart.toExponential(1)} at ${words}`);
       worst = Math.max(worst, apart);
@@ -164,6 +187,7 @@ test('what is being typed and what was dropped survive it too', { skip }, async 
   assert.equal(await page.inputValue('[id="cut.axial_depth_mm"]'), '1.75');
   assert.equal(await page.evaluate(() => new TextDecoder().decode(window.trochoidPage.files.get('mine.csv'))), 't,Fx\n0,1\n');
   await page.click('button[title="Forget mine.csv"]');
+  await page.waitForFunction(async () => !(await keptFiles.read()).has('mine.csv'));
   await page.reload();
   await page.waitForSelector('body.ready');
   assert.equal(await page.evaluate(() => window.trochoidPage.files.has('mine.csv')), false);
@@ -353,6 +377,7 @@ test('an NC program is dropped with its case and its material, and mistakes in i
                                      upload('part.nc', wrong)]);
   const mistakes = () => page.textContent('#mistakes');
   await page.waitForFunction(() => /part\.nc/.test(document.getElementById('mistakes').textContent));
+  assert.match(await page.textContent('#state'), /listed here/);
   assert.match(await mistakes(), new RegExp(`part\\.nc:${line}:3: O\\.700: `));
   assert.deepEqual(await page.evaluate(() => [...window.trochoidPage.files.keys()].sort()), ['../materials/al7075_t6.toml', 'part.nc']);
   await page.setInputFiles('#pick', upload('part.nc', good));
@@ -369,6 +394,36 @@ test('an NC program is dropped with its case and its material, and mistakes in i
   await context.close();
 });
 
+/** A face cut along lines 1.3 mm apart, in so many short blocks. */
+function manyBlocks(count) {
+  const each = 600;
+  const rows = Array.from({ length: count }, (_, n) => {
+    const x = (-44 + (88 * (n % each)) / (each - 1)) * (Math.floor(n / each) % 2 ? -1 : 1);
+    return `G1 X${x.toFixed(3)} Y${(-32 + 1.3 * Math.floor(n / each)).toFixed(3)} F1200`;
+  });
+  return ['G21 G17 G90 G94', 'T1 M6', 'S6000 M3', 'G0 X-50. Y-35. Z5.', 'Z-2.', ...rows, 'G0 Z5.', 'M30', ''].join('\n');
+}
+
+test('a program of 30 000 blocks tells how far it is, leaves the page alive, and can be stopped', { skip }, async () => {
+  const { page, seen, context } = await opened();
+  await page.check('#tasks input[value=program]');
+  await page.selectOption('#example', 'program pocket/case.toml');
+  await page.waitForFunction(() => window.trochoidPage.started === 'program pocket/case.toml');
+  await page.setInputFiles('#pick', upload('part.nc', manyBlocks(30000)));
+  await page.evaluate(() => {
+    window.longest = 0;
+    let last = performance.now();
+    setInterval(() => { const now = performance.now(); window.longest = Math.max(window.longest, now - last); last = now; }, 50);
+  });
+  await page.click('#run');
+  await page.waitForFunction(() => /^Forces of line \d+: \d+ %/.test(document.getElementById('said').textContent));
+  assert.ok(await page.evaluate(() => window.longest) < 3000);  // on a busy machine
+  await page.click('#stop');
+  await page.waitForFunction(() => document.getElementById('said').textContent === 'Stopped.');
+  assert.deepEqual(seen.complaints, []);
+  await context.close();
+});
+
 test('records take the places that the case has for them, in whatever order they come', { skip }, async () => {
   const { page, context } = await opened();
   await page.evaluate(() => take(`${page.text}\n[[measurement]]\nfile = "b.csv"\n`));
@@ -377,6 +432,23 @@ test('records take the places that the case has for them, in whatever order they
   await page.waitForFunction(() => window.trochoidPage.files.size >= 2);
   const text = await page.inputValue('#text');
   assert.match(text, /"a\.csv"[^]*"b\.csv"/);
+  await context.close();
+});
+
+test('data of a picture are saved as CSV and as an Excel workbook', { skip }, async () => {
+  const { page, seen, context } = await opened();
+  await page.check('#tasks input[value=program]');
+  await page.selectOption('#example', 'program pocket/case.toml');
+  await page.waitForFunction(() => window.trochoidPage.started === 'program pocket/case.toml');
+  await answerOf(page);
+  const report = page.frameLocator('#report');
+  for (const [label, begin] of [['Save the data of the picture as CSV', /^[^,]+,/], ['Save the data of the picture as an Excel workbook', /^PK/]]) {
+    const coming = page.waitForEvent('download');
+    await report.getByRole('button', { name: label, exact: true }).first().click();
+    const saved = fs.readFileSync(await (await coming).path(), 'latin1');
+    assert.match(saved, begin, label);
+  }
+  assert.deepEqual(seen.complaints, []);
   await context.close();
 });
 
@@ -406,8 +478,8 @@ test('work can be stopped', { skip }, async () => {
   await context.close();
 });
 
-test('it is one file of less than 3 MB, compressed', { skip }, () => {
+test('it is one file of less than 4.5 MB, compressed', { skip }, () => {
   const size = Number(execFileSync('sh', ['-c', `gzip -9 -c '${file}' | wc -c`], { encoding: 'utf8' }));
   console.log(`${(size / 1e6).toFixed(2)} MB compressed`);
-  assert.ok(size < 3e6, `${size}`);
+  assert.ok(size < 4.5e6, `${size}`);
 });
