@@ -435,12 +435,17 @@ test('records take the places that the case has for them, in whatever order they
   await context.close();
 });
 
-test('data of a picture are saved as CSV and as an Excel workbook', { skip }, async () => {
+test('the page tells when it writes, and data of a picture are saved as CSV and as an Excel workbook', { skip }, async () => {
   const { page, seen, context } = await opened();
   await page.check('#tasks input[value=program]');
   await page.selectOption('#example', 'program pocket/case.toml');
   await page.waitForFunction(() => window.trochoidPage.started === 'program pocket/case.toml');
+  await page.evaluate(() => {
+    window.told = [];
+    new MutationObserver(() => window.told.push($('said').textContent)).observe($('said'), { childList: true });
+  });
   await answerOf(page);
+  assert.ok((await page.evaluate(() => window.told)).some((line) => /^Writing the results/.test(line)));
   const report = page.frameLocator('#report');
   for (const [label, begin] of [['Save the data of the picture as CSV', /^[^,]+,/], ['Save the data of the picture as an Excel workbook', /^PK/]]) {
     const coming = page.waitForEvent('download');
