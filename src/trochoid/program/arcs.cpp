@@ -77,6 +77,7 @@ Arc arc_about(const ArcEnds& ends, Point center) noexcept {
 Arc arc_of_radius(const ArcEnds& ends, double radius) noexcept {
   constexpr double slack = 0.005 * unit::mm;
   constexpr double relative = 1e-3;
+  constexpr double rounding = 1e-12;
   const double chord = distance(ends.start, ends.end);
   const double size = std::abs(radius);
   Arc arc;
@@ -92,7 +93,9 @@ Arc arc_of_radius(const ArcEnds& ends, double radius) noexcept {
     arc.fault = ArcFault::radius_too_small;
     return arc;
   }
-  const double off = std::sqrt(std::max(0.0, size * size - chord * chord / 4));
+  // A root would make much of what rounding leaves of a half circle.
+  const bool half_circle = chord / 2 > size * (1 - rounding);
+  const double off = half_circle ? 0.0 : std::sqrt(size * size - chord * chord / 4);
   const bool to_the_left = ends.clockwise == (radius < 0);
   const Point mid = middle(ends);
   const Point left = left_of(ends, chord);

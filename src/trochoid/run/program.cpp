@@ -425,9 +425,26 @@ void check_length(const engagement::Job& job, const cases::Case& given) {
                    job.options.step_turns * steps / most_steps)});
 }
 
+/// A place has the forces of a feed move.
+void check_places(const engagement::Job& job, const cases::NcProgram& nc) {
+  std::vector<std::string> problems;
+  for (std::size_t i = 0; i < nc.places.size(); ++i) {
+    const auto line = static_cast<std::uint32_t>(nc.places[i][0]);
+    const bool there = std::ranges::any_of(job.program.moves, [&](const auto& move) {
+      return move.line == line && is_fed(move);
+    });
+    if (there) continue;
+    problems.push_back(fmt::format(
+        "program.places entry {}: line {} of the program has no move with a feed",
+        i + 1, line));
+  }
+  if (!problems.empty()) throw base::InputError(std::move(problems));
+}
+
 ProgramForces forces_of(const engagement::Job& job, const cases::Case& given,
                         const Progress& progress) {
   check_length(job, given);
+  check_places(job, *given.nc.program);
   const cases::NcProgram& nc = *given.nc.program;
   ProgramForces out;
   for (const engagement::Tool& tool : job.tools) {

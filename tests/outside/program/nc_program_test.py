@@ -425,6 +425,10 @@ class NcProgram(InFolder):
             self.assertAlmostEqual(float(row["x_mm"]), x, delta=1e-9)
         arcs = [row for row in self.rows("place_arcs.csv") if row["place"] == "0"]
         self.assertEqual([(float(a["from_deg"]), float(a["to_deg"])) for a in arcs], [(0, 180)])
+        self.case(program={"file": "part.nc", "tool_number": 1, "ignore_tools": [2],
+                           "places": [[6, 0.5], [999, 0.5]]})
+        said = self.run_program("program", "case.toml", "-o", "none", "-q", code=2).stderr
+        self.assertIn("entry 2: line 999 of the program has no move with a feed", said)
 
 
 if __name__ == "__main__":

@@ -156,6 +156,31 @@ TEST(ReadProgram, AnArcTurnsAboutItsCenter) {
   EXPECT_GT(moves[3].turn, std::numbers::pi) << "R < 0: the longer arc";
 }
 
+TEST(ReadProgram, AHalfCircleByItsRadiusIsExact) {
+  // Coordinates in thousandths: R^2 less the square of half the chord is rounding.
+  const auto moves = moves_behind_head(
+      "G2 X0.1 Y0.7 R0.353553390593274\nG2 X10.1 R5\nG3 X16.1 Y8.7 R-5.\n");
+  for (const program::Move& move : moves) {
+    EXPECT_NEAR(std::abs(move.turn), std::numbers::pi, 1e-9);
+  }
+  EXPECT_NEAR(moves[1].center[0], 5.1e-3, 1e-15);
+  EXPECT_NEAR(moves[1].center[1], 0.7e-3, 1e-15);
+}
+
+TEST(ReadProgram, TheEndOfAMirrorIsNoMove) {
+  const auto moves = moves_behind_head("G0 X5\nG50.1 X0\nG1 X6 F100");
+  ASSERT_EQ(moves.size(), 2u);
+  EXPECT_NEAR(moves[1].end[0], 6e-3, 1e-15);
+}
+
+TEST(ReadProgram, InchesAndMillimetresByG70AndG71) {
+  for (const Dialect dialect : {Dialect::iso, Dialect::linuxcnc}) {
+    const auto moves = moves_behind_head("G70 G0 X1\nG71 G0 X5", dialect);
+    EXPECT_NEAR(moves[0].end[0], 25.4e-3, 1e-15);
+    EXPECT_NEAR(moves[1].end[0], 5e-3, 1e-15);
+  }
+}
+
 TEST(ReadProgram, ACenterIsMovedOntoTheBisector) {
   // The center is 4 um off: both ends are equally far from where it is put.
   const auto moves = moves_behind_head("G3 X20 Y0 I10.004 J0");
