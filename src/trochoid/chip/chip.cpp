@@ -106,6 +106,53 @@ double surface_left(double R_k, double theta_p, double feed, double sin_theta,
   return length_on_ray(R_k, theta_p + delta, feed, sin_theta, std::sin(0.5 * delta));
 }
 
+/// The path over which a mark is as old as it is.
+struct TightPath {
+  double R_k;        ///< of the tooth that left it [m]
+  double theta_p;    ///< how far it is ahead [rad]
+  double feed;       ///< f / 2 pi [m/rad]
+  double curvature;  ///< [1/m]
+};
+
+/// @brief As surface_left, on a circular path, without the chord that N-4 takes for its arc.
+///
+/// @eq N-29 R_k sin(delta) + sin(kappa s) cos(theta)/kappa + (1 - cos(kappa s)) sin(theta)/kappa
+///          = 0, s = f (theta_p + delta)/2 pi;
+///          L_k = R_k cos(delta) - sin(kappa s) sin(theta)/kappa
+///          + (1 - cos(kappa s)) cos(theta)/kappa
+/// @src derived
+double surface_left_on_circle(const TightPath& path, double sin_theta,
+                              double cos_theta) noexcept {
+  constexpr double right = std::numbers::pi / 2;
+  constexpr int most_steps = 40;
+  double delta = 0.0;
+  for (int i = 0; i < most_steps; ++i) {
+    const double turned = path.curvature * path.feed * (path.theta_p + delta);
+    const double s = std::sin(turned);
+    const double c = std::cos(turned);
+    const double along = s / path.curvature;
+    const double aside = (1 - c) / path.curvature;
+    const double g = path.R_k * std::sin(delta) + along * cos_theta + aside * sin_theta;
+    const double slope =
+        path.R_k * std::cos(delta) + path.feed * (c * cos_theta + s * sin_theta);
+    const double step = g / slope;
+    if (!(slope > 0) || !(std::abs(delta - step) < right)) return nothing;
+    delta -= step;
+    if (step * step <= 1e-17) {
+      const double end = path.curvature * path.feed * (path.theta_p + delta);
+      return path.R_k * std::cos(delta) - std::sin(end) / path.curvature * sin_theta +
+             (1 - std::cos(end)) / path.curvature * cos_theta;
+    }
+  }
+  return nothing;
+}
+
+/// Whether N-4 errs by more than a few thousandths of the feed.
+bool is_tight(double curvature, double feed, double R) noexcept {
+  constexpr double large_feed = 0.05;  // of a turn, in parts of R
+  return std::abs(curvature) * R > 1 && unit::turn * feed > large_feed * R;
+}
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Bounds of the material on a ray. Marks are numbered by how many teeth before.
@@ -173,6 +220,11 @@ double above_rigid_mark(const Ray& ray, int m) noexcept {
         theta_p += other.epsilon - own.epsilon;
         theta_p +=
             theta_p <= 0 ? unit::turn : (theta_p > unit::turn ? -unit::turn : 0.0);
+      }
+      if (is_tight(ray.p.curvature, ray.p.feed, own.R)) {
+        return own.R -
+               surface_left_on_circle({other.R, theta_p, ray.p.feed, ray.p.curvature},
+                                      ray.sine, ray.cosine);
       }
       if (ray.p.curvature != 0) {  // N-4
         const double turned = 0.5 * ray.p.curvature * ray.p.feed * theta_p;

@@ -47,6 +47,44 @@ TEST(Chip, TheExactChipDiffersBySecondOrderOfTheFeed) {  // [C-5] [C-6] [C-7]
   }
 }
 
+/// How far from the axis a tooth that cut so much earlier left the stock on a ray: the place
+/// where its path crosses it, by halving. The path is a circle that turns to the left.
+double left_by_path(double R, double theta_p, double feed, double rho, double theta) {
+  const auto edge = [&](double delta) {
+    const double turned = feed * (theta_p + delta) / rho;
+    return std::array{-rho * std::sin(turned) + R * std::sin(theta - delta),
+                      rho * (1 - std::cos(turned)) + R * std::cos(theta - delta)};
+  };
+  const auto aside = [&](double delta) {
+    const auto [x, y] = edge(delta);
+    return x * std::cos(theta) - y * std::sin(theta);
+  };
+  double lo = -1.0;
+  double hi = 1.0;
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    ((aside(middle) > 0) == (aside(lo) > 0) ? lo : hi) = middle;
+  }
+  const auto [x, y] = edge(lo);
+  return x * std::sin(theta) + y * std::cos(theta);
+}
+
+TEST(Chip, OnATightCircleIsThatOfThePathOfTheTeeth) {  // [N-29]
+  MadeSlice s = made_slice(10e-3, 2, 0.25e-3, {.radial_offsets = {0.0, -20e-6}});
+  const double rho = 1e-3;
+  s.cut.engagement = geometry::Arcs{{{0.0, 1e-3, {{{0.0, pi}, {}, {}}}}}, 1 / rho};
+  Passage passage = s.passage();
+  passage.by_arcs = false;
+  for (const double theta : steps(0.3, 2.9, 0.1)) {
+    for (int m = 1; m <= 2; ++m) {
+      const double R = s.teeth[m == 1 ? 1 : 0].R;
+      const double left = left_by_path(R, m * pi, passage.feed, rho, theta);
+      EXPECT_NEAR(chip_over_mark(passage, s.slice(), 0, theta, m), s.teeth[0].R - left,
+                  1e-12);
+    }
+  }
+}
+
 TEST(Chip, OffsetsShiftTheRadialChipAndScaleTheFeedChip) {  // [C-3] [C-4]
   MadeSlice s = made_slice(10e-3, 2, 60e-6, {.radial_offsets = {0.0, 4e-6}});
   const double theta = 1.1;
