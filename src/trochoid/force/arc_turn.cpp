@@ -38,6 +38,13 @@ constexpr double arc_tolerance = 1e-7;
 constexpr double cone_tolerance = 1e-6;
 /// How far from its ends a piece is looked at, as a part of it.
 constexpr double inner_part = 1e-9;
+/// Steps of a table of chips on cones [rad], up to which feed per angle over radius they
+/// are enough, and up to which half of them are.
+constexpr double table_step = 0.15;
+constexpr double gentle_in_table = 0.06;
+constexpr double steepest_in_table = 0.12;
+/// The stock bounds a chip that is less than this part of it: more is rounding.
+constexpr double clipped_part = 1 - 1e-6;
 /// A tool that only falls is fed sideways by next to nothing [m/rad].
 constexpr double least_feed = 1e-13;
 
@@ -229,20 +236,92 @@ void ArcTurn::finish(Layer&& layer, const geometry::ArcLayer& given) {
   layers_.push_back(std::move(layer));
 }
 
-ArcTurn::Ray ArcTurn::ray(const Layer& layer, const Edge& edge,
-                          double theta) const noexcept {
+void ArcTurn::fill_table(const Layer& layer, Edge& edge) const {
+  const double smallest =
+      std::ranges::min_element(layer.positions, {}, &geometry::EdgePosition::R)->R;
+  const bool smooth = layer.passage.feed <= steepest_in_table * smallest;
+  if (layer.passage.model.model != chip::Model::trochoidal || !smooth ||
+      layer.arcs.empty()) {
+    return;
+  }
+  MarkTable& table = edge.table;
+  const double from =
+      std::ranges::min_element(layer.arcs, {}, &chip::ReachedArc::first)->first();
+  const double to =
+      std::ranges::max_element(layer.arcs, {}, &chip::ReachedArc::last)->last();
+  table.step =
+      layer.passage.feed <= gentle_in_table * smallest ? table_step : table_step / 2;
+  table.start = from;
+  table.steps = static_cast<int>(std::min(to - from, unit::turn) / table.step) + 1;
+  const chip::Slice slice{
+      .r = edge.r, .teeth = layer.positions, .advance = edge.advance};
+  const int marks = layer.passage.marks;
+  table.over.reserve(static_cast<std::size_t>((table.steps + 3) * marks));
+  for (int i = -1; i <= table.steps + 1; ++i) {
+    const double theta = from + i * table.step - edge.epsilon;
+    for (int m = 1; m <= marks; ++m) {
+      table.over.push_back(
+          chip::chip_over_mark(layer.passage, slice, edge.place, theta, m));
+    }
+  }
+}
+
+std::optional<ArcTurn::InTable> ArcTurn::in_table(const Edge& edge,
+                                                  double theta) noexcept {
+  const MarkTable& table = edge.table;
+  if (table.over.empty()) return std::nullopt;
+  double along = theta - table.start;
+  along -= unit::turn * std::floor(along / unit::turn);
+  const double place = along / table.step;
+  const int first = static_cast<int>(place);
+  if (first >= table.steps) return std::nullopt;
+  const double t = place - first;
+  const double before = t + 1;
+  const double after = 1 - t;
+  const double last = 2 - t;
+  return InTable{static_cast<std::size_t>(first),
+                 {-t * after * last / 6, before * after * last / 2,
+                  before * t * last / 2, -before * t * after / 6}};
+}
+
+double ArcTurn::over_mark(const Layer& layer, const Edge& edge, int mark,
+                          const InTable& at) const noexcept {
+  const auto marks = static_cast<std::size_t>(layer.passage.marks);
+  const double* over =
+      &edge.table.over[at.first * marks + static_cast<std::size_t>(mark - 1)];
+  double h = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) h += at.weight[i] * over[i * marks];
+  return h;
+}
+
+ArcTurn::OverMarks ArcTurn::over_marks(const Layer& layer, const Edge& edge,
+                                       double theta) const noexcept {
+  if (const auto at = in_table(edge, theta)) {
+    OverMarks best{edge.R, 0};
+    for (int m = 1; m <= layer.passage.marks; ++m) {
+      const double h = over_mark(layer, edge, m, *at);
+      if (h < best.h) best = {h, m};
+    }
+    return best;
+  }
   const chip::Slice slice{
       .r = edge.r, .teeth = layer.positions, .advance = edge.advance};
   const chip::Chip chip =
       chip::chip_at(layer.passage, slice, edge.place, theta - edge.epsilon);
-  if (!chip.in_cut) {
+  return {chip.in_cut ? chip.h : 0.0, chip::mark_of(chip)};
+}
+
+ArcTurn::Ray ArcTurn::ray(const Layer& layer, const Edge& edge,
+                          double theta) const noexcept {
+  const OverMarks chip = over_marks(layer, edge, theta);
+  if (!(chip.h > chip::h_threshold)) {
     return {0.0, -1};
   }
   const double h = in_stock(layer, edge, theta, chip.h);
   if (!(h > chip::h_threshold)) {
     return {0.0, -1};
   }
-  return {h, 2 * chip::mark_of(chip) + (h < chip.h ? 1 : 0)};
+  return {h, 2 * chip.mark + (h < clipped_part * chip.h ? 1 : 0)};
 }
 
 double ArcTurn::in_stock(const Layer& layer, const Edge& edge, double theta,
@@ -255,10 +334,15 @@ double ArcTurn::in_stock(const Layer& layer, const Edge& edge, double theta,
 double ArcTurn::chip_over(const Layer& layer, const Edge& edge, int mark,
                           double theta) const noexcept {
   if (mark == 0) return ray(layer, edge, theta).h;
-  const chip::Slice slice{
-      .r = edge.r, .teeth = layer.positions, .advance = edge.advance};
-  const double h = chip::chip_over_mark(layer.passage, slice, edge.place,
-                                        theta - edge.epsilon, mark);
+  double h = 0.0;
+  if (const auto at = in_table(edge, theta)) {
+    h = over_mark(layer, edge, mark, *at);
+  } else {
+    const chip::Slice slice{
+        .r = edge.r, .teeth = layer.positions, .advance = edge.advance};
+    h = chip::chip_over_mark(layer.passage, slice, edge.place, theta - edge.epsilon,
+                             mark);
+  }
   return h > chip::h_threshold ? in_stock(layer, edge, theta, std::min(h, edge.R))
                                : 0.0;
 }
@@ -276,6 +360,8 @@ ArcTurn::PerHeight ArcTurn::per_height(const Edge& edge, double h,
 }
 
 void ArcTurn::add_tooth(const Layer& layer, Edge& edge, const Edge* unbounded) {
+  if (options_.cones) fill_table(layer, edge);
+  edge.integral.use_first(options_.heights ? all_values : std::tuple_size_v<PerHeight>);
   // Between these nothing changes but what the marks do.
   std::vector<double> breaks{turn_start, turn_end};
   for (const chip::ReachedArc& arc : layer.arcs) {
@@ -439,9 +525,7 @@ void ArcTurn::add_smooth(const Layer& layer, Edge& edge, geometry::Arc piece,
     allowed[q] = tolerance_ * scale * (q < 4 ? 1.0 : 30.0);
   }
   edge.integral.append(piece.from, piece.to, f, longest_arc_panel, allowed);
-  if (!options_.cones) {
-    crest = crest_near(h_at, crest, {piece.from + inner, piece.to - inner});
-  }
+  crest = crest_near(h_at, crest, {piece.from + inner, piece.to - inner});
   edge.crests.push_back(crest);
   peak_chip_ = std::max(peak_chip_, edge.sin_kappa * crest.h);
 }

@@ -92,6 +92,14 @@ class ArcTurn {
     double theta = 0.0;  ///< [rad]
     double h = 0.0;      ///< [m]
   };
+  /// Chips over the marks of the teeth before, at equal steps of theta: cubics between
+  /// them take the place of C-5. Empty: they are computed where they are asked for.
+  struct MarkTable {
+    double start = 0.0;             ///< theta of the second of the places [rad]
+    double step = 0.0;              ///< [rad]
+    int steps = 0;                  ///< from the second place to the last but one
+    std::vector<double> over = {};  ///< shape (steps + 3, marks) [m]
+  };
   /// The edge of a tooth within a layer.
   struct Edge {
     int place = -1;        ///< among the teeth that are there; negative: it is not
@@ -104,6 +112,7 @@ class ArcTurn {
     double behind = 0.0;  ///< phi less the effective theta at the lower end [rad]
     double q = 0.0;       ///< d lag/dz [rad/m]; negative: left-hand
     std::vector<double> advance = {};  ///< N-18, for each mark [m]; empty: no fall
+    MarkTable table = {};
     numerics::PiecewiseIntegral<all_values> integral;
     std::vector<double> ends = {};   ///< of pieces, theta [rad]
     std::vector<Crest> crests = {};  ///< of each piece
@@ -140,6 +149,24 @@ class ArcTurn {
   /// What is stock of a chip of thickness h.
   [[nodiscard]] double in_stock(const Layer& layer, const Edge& edge, double theta,
                                 double h) const noexcept;
+  /// Where the table of an edge has four places about theta.
+  struct InTable {
+    std::size_t first;             ///< place of the first of them
+    std::array<double, 4> weight;  ///< of each
+  };
+  [[nodiscard]] static std::optional<InTable> in_table(const Edge& edge,
+                                                       double theta) noexcept;
+  /// Chip over a mark by the table.
+  [[nodiscard]] double over_mark(const Layer& layer, const Edge& edge, int mark,
+                                 const InTable& at) const noexcept;
+  void fill_table(const Layer& layer, Edge& edge) const;
+  /// What marks leave of the ray, whatever the stock.
+  struct OverMarks {
+    double h;
+    int mark;  ///< 0: none, up to the axis
+  };
+  [[nodiscard]] OverMarks over_marks(const Layer& layer, const Edge& edge,
+                                     double theta) const noexcept;
   /// Chip over one mark, or the closest one if it is 0.
   [[nodiscard]] double chip_over(const Layer& layer, const Edge& edge, int mark,
                                  double theta) const noexcept;

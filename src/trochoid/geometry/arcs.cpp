@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace trochoid::geometry {
 
@@ -74,8 +75,12 @@ double theta_at_radius(const StockBoundary& b, double theta, double r) noexcept 
       break;
   }
   if (!(std::abs(c) <= 1)) {
-    return image(b.beta - side * std::abs(std::remainder(theta - b.beta, unit::turn)),
-                 theta);
+    const double apart = std::abs(std::remainder(theta - b.beta, unit::turn));
+    const bool around = b.kind != StockBoundary::Kind::line && b.radius > b.distance;
+    // A circle about the axis is closest on the other side: not a boundary on more than
+    // half a turn.
+    if (around && apart <= std::numbers::pi / 2) return theta;
+    return image(b.beta - side * apart, theta);
   }
   return image(b.beta + side * std::acos(c), theta);
 }

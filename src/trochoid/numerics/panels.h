@@ -58,7 +58,8 @@ struct Panels {
     Values base;        ///< integral up to its start
   };
 
-  double from = 0.0;  ///< where the first one starts
+  double from = 0.0;     ///< where the first one starts
+  std::size_t used = M;  ///< functions that are not zero everywhere: the first of them
   std::vector<Panel> list;
   std::vector<Values> coefficients;
   Values sum{};  ///< of all panels
@@ -94,8 +95,9 @@ struct Panels {
     for (std::size_t k = 0; k <= panel_nodes; ++k) {
       Values& c = coefficients[first + k];
       for (std::size_t i = 0; i < panel_nodes; ++i) {
-        for (std::size_t q = 0; q < M; ++q) {
-          c[q] += half * rule.antiderivative[k][i] * y[i][q];
+        const double weight = half * rule.antiderivative[k][i];
+        for (std::size_t q = 0; q < used; ++q) {
+          c[q] += weight * y[i][q];
         }
       }
     }
@@ -112,10 +114,10 @@ struct Panels {
     }
   }
 
-  static bool resolved(const std::array<Values, panel_nodes>& y, double half,
-                       const Values& allowed) {
+  [[nodiscard]] bool resolved(const std::array<Values, panel_nodes>& y, double half,
+                              const Values& allowed) const {
     const PanelRule& rule = panel_rule();
-    for (std::size_t q = 0; q < M; ++q) {
+    for (std::size_t q = 0; q < used; ++q) {
       double last = 0.0;
       for (const auto& row : rule.tail) {
         double c = 0.0;

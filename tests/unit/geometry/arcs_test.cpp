@@ -53,6 +53,17 @@ TEST(Arcs, ABoundaryCrossesAnotherRadiusNextToWhereItCrossesTheCircle) {  // [N-
   EXPECT_NEAR(theta, at_rim, 0.1);
 }
 
+TEST(Arcs, TheCircleOfATurnAgoBoundsNothingBehind) {  // [N-5]
+  // It meets the circle of the cutter at both sides, and lies within it in front only.
+  const double feed = 0.2;
+  const StockBoundary before{StockBoundary::Kind::outside, -std::numbers::pi / 2, feed,
+                             5.0};
+  const double apart = std::asin(feed / 2 / 5.0);
+  const double end = std::numbers::pi + apart;
+  EXPECT_EQ(theta_at_radius(before, end, 5.0 - 2 * feed), end);
+  EXPECT_EQ(theta_at_radius(before, -apart, 5.0 - 2 * feed), -apart);
+}
+
 TEST(Arcs, AHeightHasTheArcsOfItsLayer) {
   const Arcs arcs{
       {{0.0, 1.0, {{{0.1, 0.2}}}}, {1.0, 2.0, {{{0.3, 0.4}}, {{0.5, 0.6}}}}}};
