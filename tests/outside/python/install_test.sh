@@ -29,10 +29,11 @@ fi
 [ "$(peak "$scratch/pip")" = "$first" ]
 [ -f "$scratch/pip/trochoid/py.typed" ]
 
-# A source distribution has all that the module is built of, as far as CMake looks for it.
+# A source distribution has all that the module is built of, as far as CMake looks for it; and
+# the libraries of the report, which npm would fetch.
 (cd "$root" && "$python" -W ignore setup.py -q sdist --dist-dir "$scratch/sdist" 2>/dev/null)
 tar xzf "$scratch"/sdist/trochoid-*.tar.gz -C "$scratch/sdist"
 cmake -S "$scratch"/sdist/trochoid-*/ -B "$scratch/sdist/build" -DTROCHOID_BUILD_TESTS=OFF \
-  -DTROCHOID_DEVELOPER=OFF -DTROCHOID_PYTHON="$python" >"$scratch/sdist/log" 2>&1 ||
+  -DTROCHOID_DEVELOPER=OFF -DTROCHOID_PYTHON="$python" -DNPM= >"$scratch/sdist/log" 2>&1 ||
   { cat "$scratch/sdist/log"; exit 1; }
 echo "installed and by pip: $first"
