@@ -38,7 +38,7 @@ windows_libraries=(libz-mingw-w64-dev wine64)
 octave_programs=(octave-cli=octave)
 # What the tests can do without: where it is missing, theirs are skipped.
 optional_test_libraries=(linuxcnc-uspace linuxcnc-uspace-dev make valgrind
-  mypy python3-pandas python3-matplotlib python3-setuptools python3-wheel python3-venv
+  mypy python3-pandas python3-matplotlib python3-pip python3-setuptools python3-wheel python3-venv
   python3-distributed python3-mpi4py openmpi-bin python3-jsonschema
   man-db zsh fish dpkg-dev file
   "${site_libraries[@]}")

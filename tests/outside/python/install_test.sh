@@ -20,12 +20,12 @@ first=$(peak "$(dirname "$(find "$scratch/moved" -name trochoid -type d)")")
 
 # pip takes what is built in build/release; building all of it anew takes too long here.
 if [ "$build" != "$root/build/release" ] ||
-  ! "$python" -c 'import pip, setuptools, wheel' 2>/dev/null; then
+  ! "$python" -c 'import setuptools, wheel, pip' 2>/dev/null; then  # setuptools not after pip
   echo "installed: $first; not tried with pip"
   exit
 fi
 (cd "$root" && "$python" -m pip install --quiet --no-build-isolation --no-index --no-deps \
-  --disable-pip-version-check --target "$scratch/pip" . 2>&1) | grep -v 'as root' || true
+  --disable-pip-version-check --target "$scratch/pip" . 2>&1) | grep -v "'root' user" || true
 [ "$(peak "$scratch/pip")" = "$first" ]
 [ -f "$scratch/pip/trochoid/py.typed" ]
 
