@@ -2,6 +2,7 @@
 # into it. Records in HDF5 are refused in words, for Debian has no such library for it.
 include(cmake/HeadersAlone.cmake)
 enable_language(RC)
+set(ZLIB_USE_STATIC_LIBS ON)  # its DLL is a part of wine and not of Windows
 find_package(ZLIB)
 
 # What all computers that run this Windows have. Not AVX: this compiler takes the stack to

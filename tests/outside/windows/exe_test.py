@@ -14,6 +14,8 @@ PROGRAM = os.environ["TROCHOID"]
 EXE = os.environ.get("TROCHOID_EXE", "")
 COMMANDS = "simulate|identify|surface|calibrate|stability|modes|actuator|dynamics|correct|plan"
 HANGS = 600  # s
+OBJDUMP = "x86_64-w64-mingw32-objdump"
+WINDOWS_HAS = {"kernel32.dll", "msvcrt.dll"}
 
 # Another compiler with other vectors: numbers agree so well, those far below the largest
 # of their file to this part of it; limits and fits are searched no finer.
@@ -89,6 +91,14 @@ class Exe(unittest.TestCase):
         shutil.copytree(ROOT / "examples/st52_slot", folder,
                         ignore=shutil.ignore_patterns("*.identify"))
         return folder / "case.toml"
+
+    @unittest.skipUnless(shutil.which(OBJDUMP), f"no {OBJDUMP}")
+    def test_it_needs_only_what_each_windows_has(self):
+        # Wine has more: with it a program starts that Windows refuses.
+        said = subprocess.run([OBJDUMP, "-p", EXE], capture_output=True, text=True, check=True).stdout
+        needs = {name.lower() for name in re.findall(r"DLL Name: (\S+)", said)}
+        self.assertLessEqual(needs, WINDOWS_HAS)
+        self.assertTrue(needs)
 
     def test_every_example_is_answered_alike(self):
         shutil.copytree(ROOT / "examples", self.folder / "examples",
