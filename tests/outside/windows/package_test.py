@@ -52,7 +52,10 @@ class Packages(unittest.TestCase):
     def wine(cls, *command, code=0):
         done = subprocess.run(
             ["wine", *map(str, command)], capture_output=True, timeout=600,
-            env={**os.environ, "WINEPREFIX": str(cls.prefix()), "WINEDEBUG": "-all"})
+            # Wine has the icons in HOME, and enters the program in the menu of the desktop there.
+            env={**os.environ, "HOME": str(cls.folder), "XDG_DATA_HOME": str(cls.folder / "data"),
+                 "XDG_CONFIG_HOME": str(cls.folder / "config"),
+                 "WINEPREFIX": str(cls.prefix()), "WINEDEBUG": "-all"})
         assert done.returncode == code, (command, done)
         return done.stdout.decode(errors="replace").replace("\r", "") or "done"
 
