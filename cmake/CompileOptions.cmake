@@ -10,12 +10,17 @@ if(TROCHOID_DEVELOPER)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
   if(TROCHOID_UNITY)
     # What a file has at its top is seen by the next one, which may have a variable of that
-    # name; and g++ does not see that the unnamed namespace of a unit is in one unit only.
+    # name.
     target_compile_options(trochoid_compile_options INTERFACE
-      $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local;-Wno-subobject-linkage>)
+      $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>)
   else()
     target_compile_options(trochoid_compile_options INTERFACE -Wshadow)
   endif()
+endif()
+if(TROCHOID_UNITY)
+  # g++ does not see that the unnamed namespace of a unit is in one unit only.
+  target_compile_options(trochoid_compile_options INTERFACE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
 
 # What a file that is read wrongly meets before it does harm: for the library and the
