@@ -95,7 +95,7 @@ std::string unit_of(const TapColumn& column, const std::string& rest) {
   std::erase_if(unit, [](char c) { return c == '[' || c == ']' || c == ' '; });
   constexpr std::string_view per = "_per_";  // as in a_m_per_s2
   for (std::size_t at = unit.find(per); at != std::string::npos; at = unit.find(per)) {
-    unit.replace(at, per.size(), "/");
+    unit.replace(at, per.size(), 1, '/');
   }
   const auto open = std::count(unit.begin(), unit.end(), '(');
   const auto shut = std::count(unit.begin(), unit.end(), ')');
