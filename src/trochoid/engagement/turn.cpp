@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace trochoid::engagement {
@@ -95,19 +96,25 @@ Curve curve_of(const force::ArcTurn& teeth, std::vector<double> phi) {
   return out;
 }
 
+/// The first of the largest, as far as rounding tells: the same on every machine.
+template <class Values, class Size>
+std::size_t top_of(const Values& values, const Size& size) {
+  constexpr double alike = 1 - 1e-9;
+  const double most = size(*std::ranges::max_element(values, {}, size));
+  const auto top = std::ranges::find_if(
+      values, [&](const auto& value) { return size(value) >= alike * most; });
+  return static_cast<std::size_t>(top - values.begin());
+}
+
 /// Where the force of each tooth, that of all and the torque are largest.
 std::vector<std::size_t> tops_of(const Curve& curve) {
   std::vector<std::size_t> out;
   for (const std::vector<double>& squares : curve.each_tooth) {
-    const auto top = std::ranges::max_element(squares);
-    out.push_back(static_cast<std::size_t>(top - squares.begin()));
+    out.push_back(top_of(squares, std::identity{}));
   }
-  const auto add = [&](auto top) {
-    out.push_back(static_cast<std::size_t>(top - curve.all.begin()));
-  };
-  add(std::ranges::max_element(curve.all, {}, in_plane));
-  add(std::ranges::max_element(
-      curve.all, {}, [](const force::ToothLoads& F) { return std::abs(F.torque); }));
+  out.push_back(top_of(curve.all, in_plane));
+  out.push_back(
+      top_of(curve.all, [](const force::ToothLoads& F) { return std::abs(F.torque); }));
   std::ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
