@@ -23,7 +23,7 @@ constexpr double fastest = 0.4;
 constexpr double next_feed = 1.012;
 /// Lines of fewer steps have the feed of the others; of more lines all have.
 constexpr std::size_t least_steps = 20;
-constexpr std::size_t most_lines = 300;
+constexpr std::size_t most_lines = 60;
 /// Rows that are compared when the place is found exactly.
 constexpr std::size_t most_compared = 4000;
 /// Parts of the program that are laid over the record each by itself.
@@ -445,9 +445,10 @@ Laid line_by_line(std::span<const Step> steps, const Means& means, const Slower&
 /// The same from several starts: where feeds differ, one feed for all finds a wrong one.
 Laid best_line_by_line(std::span<const Step> steps, const Means& means,
                        const Slower& about, double bin) {
-  constexpr int starts = 4;
+  constexpr std::size_t few_lines = 12;
+  const int starts = lines_of(steps).size() <= few_lines ? 4 : 1;
   const double apart = std::max(3 * bin, 0.04 * (steps.back().time - steps[0].time));
-  std::vector<Laid> all(2 * (2 * starts + 1));
+  std::vector<Laid> all(static_cast<std::size_t>(2 * (2 * starts + 1)));
   numerics::for_each_index(
       all.size(),
       [&](std::size_t i) {
