@@ -66,8 +66,7 @@ std::size_t group_of(const Step& step, Reads reads, std::vector<double>& speeds)
 /// Weighted correlation of vectors, each component about the mean of its group.
 class Correlation {
  public:
-  void add(std::size_t group, const Vector& a, const Vector& b,
-           double weight) noexcept {
+  void add(std::size_t group, const Vector& a, const Vector& b, double weight) {
     if (group >= groups_.size()) groups_.resize(group + 1);
     Group& of = groups_[group];
     of.weight += weight;

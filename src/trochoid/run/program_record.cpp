@@ -102,6 +102,8 @@ struct Placed {
 
 /// Other feeds are tried where the programmed ones do not agree so well.
 constexpr double good_correlation = 0.995;
+/// They are taken where they leave less than this part of what those leave unexplained.
+constexpr double clear_part = 0.8;
 
 /// By lines or N numbers: by those with which the record agrees better.
 Placed placed(std::span<const engagement::Step> steps, engagement::Recorded recorded) {
@@ -120,8 +122,8 @@ Placed placed(std::span<const engagement::Step> steps, engagement::Recorded reco
     Placed slower = at(std::nullopt, std::move(other->record));
     slower.start = other->start;
     slower.slower = other->slower;
-    return agrees(slower) > agrees(as_programmed) ? std::move(slower)
-                                                  : std::move(as_programmed);
+    const bool clearly = 1 - agrees(slower) < clear_part * (1 - agrees(as_programmed));
+    return clearly ? std::move(slower) : std::move(as_programmed);
   }
   const auto by = [&](LineNumbers numbers) {
     return at(numbers, engagement::by_lines(steps, recorded, numbers));
