@@ -190,8 +190,10 @@ double agreement(std::span<const Row> rows, const Means& means, double start,
   Correlation sum;
   std::vector<double> speeds;
   for (const Row& row : rows) {
+    // The computed mean is that of a whole turn.
+    const double turns = std::min(row.step->turns, 1.0);
     const double middle = start + stretch * row.time;
-    const double half = 0.5 * stretch * row.duration;
+    const double half = 0.5 * stretch * row.duration / (turns > 0 ? turns : 1.0);
     if (const auto mean = means.mean(middle - half, middle + half)) {
       sum.add(group_of(*row.step, means.reads(), speeds),
               mean_of(*row.step, means.reads()), *mean, row.duration);
