@@ -233,14 +233,31 @@ void modal_motion(Motion& o) {
   }
 }
 
+/// The axis words that say where to. X of a dwell is a time, those of G50.1 name the
+/// mirrors that end.
+void take_axes(Motion& o) {
+  Orders& orders = o.s.orders;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const char letter = axis_letters[i];
+    if (!orders.is_taken(letter)) {
+      o.axes[i] = orders.take(letter);
+      continue;
+    }
+    const Word* const word = orders.find(letter);
+    const bool two_uses = orders.has(Group::scaling) && orders.has(Group::motion);
+    if (word == nullptr || !two_uses) continue;
+    return o.complain(
+        word->at, Fault::order,
+        "does it end a mirror (G50.1) or is it a place to go to? Write two "
+        "blocks");
+  }
+}
+
 }  // namespace
 
 void move(Run& run, Sorted& s) {
   Motion o{run, s};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const bool time = axis_letters[i] == 'X' && s.orders.is_taken('X');  // of a dwell
-    if (!time) o.axes[i] = s.orders.take(axis_letters[i]);
-  }
+  take_axes(o);
   set_motion(o);
   switch (s.orders.of(Group::once)) {
     case Action::home:

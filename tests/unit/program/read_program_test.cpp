@@ -168,9 +168,12 @@ TEST(ReadProgram, AHalfCircleByItsRadiusIsExact) {
 }
 
 TEST(ReadProgram, TheEndOfAMirrorIsNoMove) {
-  const auto moves = moves_behind_head("G0 X5\nG50.1 X0\nG1 X6 F100");
+  const auto moves = moves_behind_head("G0 X5 Y7\nG50.1 X0 Y0 Z0\nG1 X6 F100");
   ASSERT_EQ(moves.size(), 2u);
   EXPECT_NEAR(moves[1].end[0], 6e-3, 1e-15);
+  EXPECT_NEAR(moves[1].end[1], 7e-3, 1e-15);
+  EXPECT_EQ(places(read(head + "G0 X5\nG50.1 G1 X60 F600")), "7:10 ")
+      << "the end of a mirror, or a place?";
 }
 
 TEST(ReadProgram, InchesAndMillimetresByG70AndG71) {
