@@ -6,6 +6,7 @@
 #include <trochoid/force/setup.h>
 #include <trochoid/run/program.h>
 #include <trochoid/run/wall.h>
+#include <trochoid/stock/path.h>
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>
@@ -425,18 +426,25 @@ void check_length(const engagement::Job& job, const cases::Case& given) {
                    job.options.step_turns * steps / most_steps)});
 }
 
-/// A place has the forces of a feed move.
-void check_places(const engagement::Job& job, const cases::NcProgram& nc) {
+/// A place has the forces of a feed move that goes somewhere.
+void check_places(const engagement::Job& job, const cases::Case& given) {
+  const auto& places = given.nc.program->places;
+  if (places.empty()) return;
+  const auto& moves = job.program.moves;
+  const stock::Path path = stock::path(moves, job.options.rapid_feed);
   std::vector<std::string> problems;
-  for (std::size_t i = 0; i < nc.places.size(); ++i) {
-    const auto line = static_cast<std::uint32_t>(nc.places[i][0]);
-    const bool there = std::ranges::any_of(job.program.moves, [&](const auto& move) {
-      return move.line == line && is_fed(move);
-    });
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto line = static_cast<std::uint32_t>(places[i][0]);
+    bool there = false;
+    for (std::size_t m = 0; m < moves.size() && !there; ++m) {
+      there =
+          moves[m].line == line && is_fed(moves[m]) && std::isfinite(path.begins[m]);
+    }
     if (there) continue;
-    problems.push_back(fmt::format(
-        "program.places entry {}: line {} of the program has no move with a feed",
-        i + 1, line));
+    problems.push_back(
+        fmt::format("{}: program.places entry {}: line {} of the program has no move "
+                    "with a feed, or one without length",
+                    given.file.string(), i + 1, line));
   }
   if (!problems.empty()) throw base::InputError(std::move(problems));
 }
@@ -444,7 +452,7 @@ void check_places(const engagement::Job& job, const cases::NcProgram& nc) {
 ProgramForces forces_of(const engagement::Job& job, const cases::Case& given,
                         const Progress& progress) {
   check_length(job, given);
-  check_places(job, *given.nc.program);
+  check_places(job, given);
   const cases::NcProgram& nc = *given.nc.program;
   ProgramForces out;
   for (const engagement::Tool& tool : job.tools) {

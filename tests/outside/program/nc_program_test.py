@@ -428,7 +428,13 @@ class NcProgram(InFolder):
         self.case(program={"file": "part.nc", "tool_number": 1, "ignore_tools": [2],
                            "places": [[6, 0.5], [999, 0.5]]})
         said = self.run_program("program", "case.toml", "-o", "none", "-q", code=2).stderr
-        self.assertIn("entry 2: line 999 of the program has no move with a feed", said)
+        self.assertIn("case.toml: program.places entry 2: line 999 of the program has no move with a feed",
+                      said)
+        self.case(PART.replace("G1 X20. F320", "G1 X20. F320\nG1 X20."),
+                  program={"file": "part.nc", "tool_number": 1, "ignore_tools": [2],
+                           "places": [[7, 0.5]]})
+        said = self.run_program("program", "case.toml", "-o", "none", "-q", code=2).stderr
+        self.assertIn("entry 1: line 7", said, "a move without length has no place")
 
 
 if __name__ == "__main__":
