@@ -13,8 +13,10 @@ namespace trochoid::engagement {
 
 namespace {
 
-/// Angles of a turn at which forces are looked at, beside those where they have a kink.
+/// Angles of a turn at which forces are looked at, beside those where they have a kink;
+/// and where forces jump, as nothing is divided there.
 constexpr int angles = 144;
+constexpr int angles_with_jumps = 288;
 /// About the largest forces steps are divided so often, into so many parts.
 constexpr int rounds = 2;
 constexpr int between = 4;
@@ -55,8 +57,9 @@ double larger(double a, double b) noexcept {
 /// @param every_event  kinks too, not only jumps
 std::vector<double> angles_of(const force::ArcTurn& turn, bool every_event) {
   std::vector<double> phi;
-  for (int i = 0; i < angles; ++i) {
-    phi.push_back(unit::turn * i / angles);
+  const int count = turn.jumps() ? angles_with_jumps : angles;
+  for (int i = 0; i < count; ++i) {
+    phi.push_back(unit::turn * i / count);
   }
   if (!every_event && !turn.jumps()) return phi;
   for (const double event : turn.events()) {
@@ -100,10 +103,12 @@ Curve curve_of(const force::ArcTurn& teeth, std::vector<double> phi) {
 template <class Values, class Size>
 std::size_t top_of(const Values& values, const Size& size) {
   constexpr double alike = 1 - 1e-9;
-  const double most = size(*std::ranges::max_element(values, {}, size));
-  const auto top = std::ranges::find_if(
-      values, [&](const auto& value) { return size(value) >= alike * most; });
-  return static_cast<std::size_t>(top - values.begin());
+  const auto largest = std::ranges::max_element(values, {}, size);
+  const double most = size(*largest);
+  const auto first =
+      std::ranges::find_if(values.begin(), largest,
+                           [&](const auto& one) { return size(one) >= alike * most; });
+  return static_cast<std::size_t>(first - values.begin());
 }
 
 /// Where the force of each tooth, that of all and the torque are largest.
@@ -164,7 +169,8 @@ Curve merged(const Curve& a, const Curve& b) {
   return out;
 }
 
-/// Forces of a turn, as finely as its largest ones need it.
+/// Forces of a turn, finer about the largest ones of each tooth and of all, and the
+/// largest torque.
 Curve fine_curve_of(const force::ArcTurn& teeth, bool every_event) {
   Curve curve = curve_of(teeth, angles_of(teeth, every_event));
   if (teeth.jumps()) return curve;
