@@ -170,9 +170,9 @@ RecordedSteps over_steps(std::span<const Step> steps, const LaidOver& over) {
   const Alignment& alignment = over.alignment;
   RecordedSteps out;
   const Means means(record);
-  const auto window = [&](const Step& step) {
+  const auto window = [&](const Step& step, double part = 1.0) {
     const double middle = alignment.start + alignment.stretch * step.time;
-    const double half = 0.5 * alignment.stretch * step.duration;
+    const double half = 0.5 * alignment.stretch * step.duration / part;
     return std::pair(middle - half, middle + half);
   };
   Baseline baseline;
@@ -198,7 +198,9 @@ RecordedSteps over_steps(std::span<const Step> steps, const LaidOver& over) {
   out.idle.found = !out.idle.speeds.empty();
   for (const Step& step : steps) {
     StepRecord& one = out.steps.emplace_back();
-    const auto [from, to] = window(step);
+    // The computed mean is that of a whole turn.
+    const auto [from, to] =
+        window(step, step.turns > 0 ? std::min(step.turns, 1.0) : 1.0);
     const Vector offset =
         baseline.empty() ? out.idle.at(step.spindle) : baseline.at(0.5 * (from + to));
     const auto [a, b] = means.within(from, to);

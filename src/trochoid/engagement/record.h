@@ -1,8 +1,10 @@
 #pragma once
 
+#include <trochoid/base/stop.h>
 #include <trochoid/engagement/steps.h>
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -49,13 +51,19 @@ Recorded by_lines(std::span<const Step> steps, const Recorded& record,
                   LineNumbers numbers);
 
 /// @brief How the time of a record lies over the time of the program.
-/// @eq N-23 t_record = start + stretch t_program, where the means of the steps correlate most
+/// @eq N-23 t_record = start + stretch t_program, where the record correlates most with the
+///          means of the steps, and with air before and after them
 /// @src standard
 struct Alignment {
   double start = 0.0;  ///< of the program, in the time of the record [s]
   double stretch = 1.0;
   double correlation = 0.0;  ///< of the mean forces of steps; 1: alike but for a factor
   double scatter = 0.0;      ///< of parts of the program about that line [s]
+  double covered = 0.0;      ///< part of the feed moves that the record has
+  /// The same of the whole record, with air before and after the program.
+  double whole_correlation = 0.0;
+  /// Another start that agrees nearly as well [s]; NaN: there is none.
+  double other_start = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// @brief Lay a record over a program.
@@ -66,18 +74,20 @@ std::optional<Alignment> align(std::span<const Step> steps, const Recorded& reco
 /// A record with the times of its program, which the machine ran with other feeds.
 struct OtherFeed {
   Recorded record;
-  double start = 0.0;   ///< of the program, in the time of the record [s]
-  double slower = 1.0;  ///< how many times as long every feed move took
+  double start = 0.0;         ///< of the program, in the time of the record [s]
+  double slower = 1.0;        ///< how many times as long the feed moves took
+  bool line_by_line = false;  ///< each line has its own factor
 };
 
 /// @brief Lay a record over a program all of whose feeds were slower by one factor, from 0.4
-/// to 2.5.
+/// to 2.5, or each line by its own where that explains clearly more.
 /// @eq N-28 t_record = start + t_rapid + slower t_feed, where the means of the steps correlate
 ///          most
 /// @src derived
-/// @return nothing as of align; rapids take as long as in the program
+/// @return nothing as of align, or where it is stopped; rapids take as long as in the program
 std::optional<OtherFeed> at_other_feed(std::span<const Step> steps,
-                                       const Recorded& record);
+                                       const Recorded& record,
+                                       const base::Stop& stop = {});
 
 /// A record, and where it lies over its program.
 struct LaidOver {

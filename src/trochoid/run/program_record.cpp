@@ -19,8 +19,16 @@ namespace trochoid::run {
 
 namespace {
 
-/// A record that agrees less is not of this program.
+/// A record that agrees less is not of this program: as it was programmed, with one factor
+/// for all feeds, and with one for each line. What is free fits anything a little.
 constexpr double least_correlation = 0.85;
+constexpr double least_with_factor = 0.9;
+constexpr double least_line_by_line = 0.95;
+/// The record has the whole program, or little beside what it has of it.
+constexpr double whole_program = 0.95;
+constexpr double least_of_whole = 0.8;
+/// A shorter record cannot be laid over a program.
+constexpr double least_turns = 10.0;
 /// A clock that differs more is said.
 constexpr double same_clock = 0.005;
 /// Feeds and coefficients that differ more from the case are said.
@@ -90,7 +98,14 @@ struct Placed {
   engagement::LaidOver over;
   double start = 0.0;   ///< where all feeds were slower: of the program [s]
   double slower = 1.0;  ///< by this factor
+  double least = least_correlation;
 
+  /// Whether it is of this program, and where it was laid.
+  [[nodiscard]] bool fits() const noexcept {
+    const engagement::Alignment& at = over.alignment;
+    return std::max(at.correlation, at.whole_correlation) >= least &&
+           (at.covered >= whole_program || at.whole_correlation >= least_of_whole);
+  }
   /// In the time of the record.
   [[nodiscard]] engagement::Alignment alignment() const noexcept {
     engagement::Alignment out = over.alignment;
@@ -106,22 +121,29 @@ constexpr double good_correlation = 0.995;
 constexpr double clear_part = 0.8;
 
 /// By lines or N numbers: by those with which the record agrees better.
-Placed placed(std::span<const engagement::Step> steps, engagement::Recorded recorded) {
+Placed placed(std::span<const engagement::Step> steps, engagement::Recorded recorded,
+              const base::Stop& stop) {
   using engagement::LineNumbers;
   const auto at = [&](std::optional<LineNumbers> numbers, engagement::Recorded timed) {
     const auto alignment = engagement::align(steps, timed);
     return Placed{numbers,
                   {std::move(timed), alignment.value_or(engagement::Alignment{})}};
   };
-  const auto agrees = [](const Placed& one) { return one.over.alignment.correlation; };
+  const auto agrees = [](const Placed& one) {
+    return one.over.alignment.whole_correlation;
+  };
   if (recorded.line.empty()) {
     Placed as_programmed = at(std::nullopt, std::move(recorded));
-    if (agrees(as_programmed) > good_correlation) return as_programmed;
-    auto other = engagement::at_other_feed(steps, as_programmed.over.record);
+    if (as_programmed.over.alignment.correlation > good_correlation &&
+        as_programmed.fits()) {
+      return as_programmed;
+    }
+    auto other = engagement::at_other_feed(steps, as_programmed.over.record, stop);
     if (!other) return as_programmed;
     Placed slower = at(std::nullopt, std::move(other->record));
     slower.start = other->start;
     slower.slower = other->slower;
+    slower.least = other->line_by_line ? least_line_by_line : least_with_factor;
     const bool clearly = 1 - agrees(slower) < clear_part * (1 - agrees(as_programmed));
     return clearly ? std::move(slower) : std::move(as_programmed);
   }
@@ -342,9 +364,60 @@ void warn_of_feeds(std::span<const engagement::Step> steps,
       {"feed_override",
        fmt::format("{}: the machine did not keep the feeds of the program: {}{}. The "
                    "computed forces belong to the programmed feeds. Coefficients "
-                   "are found with the feeds that ran.",
+                   "are found with the feeds that ran.{}",
                    record.file, fmt::join(lines, ", "),
-                   more > 0 ? fmt::format(" and {} more", more) : std::string())});
+                   more > 0 ? fmt::format(" and {} more", more) : std::string(),
+                   record.numbers
+                       ? ""
+                       : " Each line got the feed with which the record fits: "
+                         "check that it is of this program.")});
+}
+
+/// The record is not of this program, or it cannot be told where it is.
+base::Warning does_not_fit(const Placed& record, const std::string& file,
+                           std::span<const engagement::Step> steps) {
+  const engagement::Recorded& given = record.over.record;
+  const double length =
+      given.time.size() > 1 ? given.time.back() - given.time.front() : 0.0;
+  const auto cuts = std::ranges::find_if(
+      steps, [](const engagement::Step& step) { return step.a_p > 0; });
+  if (cuts != steps.end() && length * cuts->spindle < least_turns * unit::turn) {
+    return {
+        "record_does_not_fit",
+        fmt::format("{}: it has less than ten turns of the spindle: too few to find "
+                    "where it lies over the program.",
+                    file)};
+  }
+  const engagement::Alignment& at = record.over.alignment;
+  const bool elsewhere = at.correlation >= record.least;
+  return {
+      "record_does_not_fit",
+      fmt::format(
+          "{}: its {} not fit this program (correlation {:.2f}{}). Check the axes of the "
+          "dynamometer, and that the record is of this program{}.{}",
+          file, given.reads == engagement::Reads::forces ? "forces do" : "channel does",
+          at.correlation,
+          elsewhere ? fmt::format(" where both are; of the whole record {:.2f}",
+                                  at.whole_correlation)
+                    : std::string(),
+          elsewhere ? " alone (from_s and to_s leave the rest out)" : "",
+          record.numbers ? ""
+                         : " Feeds that the operator changed often need a column with "
+                           "the line that ran (line_column).")};
+}
+
+/// Other places agree nearly as well: equal passes, of which the record has a part.
+void warn_of_places(const Placed& record, const std::string& file,
+                    std::vector<base::Warning>& warnings) {
+  const double other = record.over.alignment.other_start;
+  if (record.numbers || !std::isfinite(other)) return;
+  warnings.push_back(
+      {"record_ambiguous",
+       fmt::format(
+           "{}: the program may start at {:.2f} s or at {:.2f} s of it: both agree "
+           "about as well. Which step had which force is not known for certain. "
+           "A record with the air before and after the program tells.",
+           file, record.alignment().start, record.start + other)});
 }
 
 void warn_of_record(const results::ProgramRecord& record,
@@ -352,10 +425,11 @@ void warn_of_record(const results::ProgramRecord& record,
   if (std::abs(record.alignment.stretch - 1) > same_clock) {
     warnings.push_back(
         {"record_stretch",
-         fmt::format("{}: the machine took {:.3f} times as long as the program: a feed "
-                     "override, or accelerations that [machine] does not have. "
-                     "Coefficients are found with the feeds that ran.",
-                     record.file, record.alignment.stretch)});
+         fmt::format(
+             "{}: the feed moves took {:.3f} times as long as in the program: a feed "
+             "override, or accelerations that [machine] does not have. The "
+             "computed forces belong to the programmed feeds. Coefficients are found with the feeds that ran.",
+             record.file, record.alignment.stretch)});
   }
   if (!record.recorded.idle.found) {
     warnings.push_back(
@@ -379,25 +453,17 @@ std::optional<results::ProgramRecord> record_of(const engagement::Job& job,
                                                 std::span<const engagement::Step> steps,
                                                 std::vector<base::Warning>& warnings) {
   if (given.measurements.empty()) return std::nullopt;
-  Placed record = placed(steps, recorded_of(given));
+  const Placed record = placed(steps, recorded_of(given), job.options.stop);
   const engagement::LaidOver& over = record.over;
   results::ProgramRecord out{.file = given.measurements.front().source.file.name,
                              .numbers = record.numbers,
                              .alignment = record.alignment(),
                              .reads = over.record.reads};
-  if (over.alignment.correlation < least_correlation) {
-    warnings.push_back(
-        {"record_does_not_fit",
-         fmt::format(
-             "{}: its {} not fit this program (correlation {:.2f}). "
-             "Check the axes of the dynamometer, and that the record is of "
-             "this program. Feeds that the operator changed often need a column with "
-             "the line that ran (line_column).",
-             out.file,
-             out.reads == engagement::Reads::forces ? "forces do" : "channel does",
-             over.alignment.correlation)});
+  if (!record.fits()) {
+    warnings.push_back(does_not_fit(record, out.file, steps));
     return std::nullopt;
   }
+  warn_of_places(record, out.file, warnings);
   out.recorded = engagement::over_steps(steps, over);
   compare(steps, out);
   if (!own.empty()) {

@@ -2362,11 +2362,17 @@ class ProgramRecord(Values):
     start_s: float
     """of the program, in the time of the record"""
     stretch: float
-    """seconds of the record for a second of the program"""
+    """seconds of the record for a second of the program; where feeds were turned, for a second
+    of its feed moves"""
     scatter_s: float
     """of parts of the program about that, rms"""
     correlation: float
     """of measured and computed mean forces; 1: alike but for a factor"""
+    whole_correlation: float
+    """the same of the whole record in short times: before and after the program it should read
+    air"""
+    covered: float
+    """part of the feed moves that the record has"""
     reads: str
     """`forces`, `power` or `torque`"""
     steps: int

@@ -1124,6 +1124,8 @@ class ProgramRecord(TypedDict):
     stretch: float
     scatter_s: float
     correlation: float
+    whole_correlation: float
+    covered: float
     reads: str
     steps: int
     mean_ratio: float
