@@ -11,9 +11,6 @@ function element(name, attributes = {}, ...children) {
   return node;
 }
 
-/** The alternatives that a key of the schema has. */
-const formsOf = (schema) => schema.anyOf ?? schema.oneOf ?? [schema];
-
 /** The unit ends what is said of a key, before what is usual; other brackets are tables and lists. */
 const unitText = /\s*\[([^[\]]+)\](?=$|; default)/;
 
@@ -34,23 +31,6 @@ function rangeOf(schema) {
 }
 
 const isFile = (key) => key === 'file' || key === 'frf' || key === 'include' || key === 'command_file';
-
-const typeOf = (schema) => schema.type ?? typeof (schema.const ?? schema.enum?.[0]);
-
-const isPlain = (value) => /^([-+]?\.?\d|\[|\{|(true|false)$|["'])/.test(value);
-
-/** What was typed, as TOML writes it; null: nothing. Quotes and brackets may be left out. */
-function typed(text, schema) {
-  const value = text.trim();
-  if (value === '') return null;
-  const types = formsOf(schema).map(typeOf);
-  if (types.every((t) => t === 'string')) return /^["']/.test(value) ? value : JSON.stringify(value);
-  if (types.includes('array') && value.includes(',') && !value.startsWith('[')) {
-    return `[${value.split(',').map((one) => (isPlain(one.trim()) ? one.trim() : JSON.stringify(one.trim()))).join(', ')}]`;
-  }
-  if (types.includes('string') && !isPlain(value)) return JSON.stringify(value);
-  return value.replace(/^(-?\d+),(\d+)$/, '$1.$2');  // a decimal comma
-}
 
 const shownValue = (value) =>
   value === undefined ? '' : typeof value === 'string' ? value : tomlOf(value);
@@ -90,7 +70,8 @@ function field({ path, key, twin, schema, value, needed, files, change, preview 
   const unit = inInches ? unitOf(schema).replace('mm', 'in') : unitOf(schema);
   const inches = twin === undefined ? '' : inInches ? '; "8 mm" is mm' : '; "0.5 in" is inches';
   input.setAttribute('aria-describedby', `${id}.help`);
-  return element('div', { class: `field${needed ? ' needed' : ''}${value === undefined ? ' unset' : ''}`, 'data-key': id },
+  return element('div', { class: `field${needed ? ' needed' : ''}${value === undefined ? ' unset' : ''}`, 'data-key': id,
+                          'data-unclear': unclearList(value, schema) },
     element('label', { for: id }, key),
     element('span', { class: 'input' }, input, element('span', { class: 'unit' }, unit)),
     element('p', { class: 'help', id: `${id}.help` }, helpOf(schema) + (range ? ` (${range})` : '') + inches),
@@ -158,16 +139,17 @@ function mistakesOf(text) {
   });
 }
 
-/** Each mistake at its field, or at its table. @returns those that have no place */
+/** Each mistake at its field, or at its table: commas in the form's words. @returns those that have no place */
 function showMistakes(form, mistakes) {
   for (const node of form.querySelectorAll('.mistake')) { node.hidden = true; node.textContent = ''; }
   form.querySelectorAll('.wrong').forEach((node) => node.classList.remove('wrong'));
   const placeOf = (path) => form.querySelector(`[data-key="${CSS.escape(path)}"], [data-key="${path}"]`);
   return mistakes.filter(({ path, text }) => {
-    const place = path && (placeOf(path) ?? placeOf(path.replace(/_mm(?=$|_)/, '_in')));  // the program speaks of mm
+    const place = path && (placeOf(path) ?? placeOf(path.replace(/_mm(?=$|_)/, '_in'))  // the program speaks of mm
+                           ?? placeOf(path.replace(/\.values$/, '')));
     if (!place) return true;
     const said = place.querySelector('.mistake');
-    said.textContent = text;
+    said.textContent = place.dataset.unclear ?? text;
     said.hidden = false;
     place.classList.add('wrong');
     for (let up = place.parentElement; up !== form; up = up.parentElement) up.open = true;
@@ -176,5 +158,5 @@ function showMistakes(form, mistakes) {
 }
 
 if (typeof module !== 'undefined') {
-  module.exports = { typed, mistakesOf, rangeOf, unitOf, helpOf };
+  module.exports = { mistakesOf, rangeOf, unitOf, helpOf };
 }

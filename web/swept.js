@@ -19,10 +19,11 @@ function valuesTyped(text) {
   }
   const normal = normalText.exec(value);
   if (normal) return `{ mean = ${point(normal[1])}, sd = ${point(normal[2])} }`;
-  const parts = value.includes(';') ? value.split(';').map((one) => one.trim().replace(/^([-+]?\d*),(\d+)$/, '$1.$2'))
-    : value.split(',').map((one) => one.trim());
-  const whole = new RegExp(`^${numberText}$`, 'i');
-  const toml = (one) => (whole.test(one) || /^(true|false|["'].*)$/.test(one) ? one : JSON.stringify(one));
+  const { numbers, unclear } = numbersTyped(value);
+  if (numbers !== undefined) return `{ values = [${numbers.join(', ')}] }`;
+  if (unclear !== undefined) return `{ values = ${JSON.stringify(value)} }`;  // no list: the program refuses it
+  const parts = value.split(value.includes(';') ? ';' : ',').map((one) => one.trim());
+  const toml = (one) => (/^(true|false|["'].*)$/.test(one) ? one : numberTyped(one) ?? JSON.stringify(one));
   return `{ values = [${parts.filter((one) => one !== '').map(toml).join(', ')}] }`;
 }
 
@@ -32,6 +33,7 @@ function valuesShown(value) {
     return `${value.from} .. ${value.to}${value.count === undefined ? '' : `, ${value.count}`}`;
   }
   if (Array.isArray(value?.values)) return value.values.map((one) => (typeof one === 'string' && /[,;'"]/.test(one) ? JSON.stringify(one) : String(one))).join(', ');
+  if (typeof value?.values === 'string') return value.values;
   if (value?.mean !== undefined && value.sd !== undefined) return `${value.mean} ± ${value.sd}`;
   return value === undefined ? '' : tomlOf(value);
 }
@@ -70,7 +72,8 @@ function sweptPart({ given, sweep }) {
     };
     name.addEventListener('change', set);
     values.addEventListener('change', set);
-    return element('div', { class: 'swept', 'data-key': `sweep.over.${key}` }, name, values, element('p', { class: 'mistake', role: 'alert', hidden: true }));
+    const unclear = typeof over[key]?.values === 'string' ? numbersTyped(over[key].values).unclear : undefined;
+    return element('div', { class: 'swept', 'data-key': `sweep.over.${key}`, 'data-unclear': unclear }, name, values, element('p', { class: 'mistake', role: 'alert', hidden: true }));
   };
   return element('div', { class: 'over' },
     element('p', { class: 'help' }, 'Keys and their values: 500 .. 1500, 21 (from, to, how many); 1, 2, 5 (these; with decimal commas 0,1; 0,2); '

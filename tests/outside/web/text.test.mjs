@@ -14,12 +14,14 @@ const need = createRequire(import.meta.url);
 const { tablesOf, withKey, withoutTable, withToolOf, tomlOf, keyOf } = need(`${root}/web/case_text.js`);
 Object.assign(globalThis, { tablesOf, withKey, tomlOf, keyOf });  // the page has one scope
 const { inchKeyOf, withUnit, inMm } = need(`${root}/web/lengths.js`);
+const { formsOf, typed, numberTyped, numbersTyped, unclearList } = need(`${root}/web/typed.js`);
+Object.assign(globalThis, { formsOf, numberTyped, numbersTyped });
 const { valuesTyped, valuesShown, numbersOf, withSwept } = need(`${root}/web/swept.js`);
 const { seriesColor, isDrawable, stockOf, profileOf, radiusAt, teethOf, edgeSeen, toolPicture } = vm.runInThisContext(
   `(() => { ${scriptOfReports(root)}\nreturn ${namesOfReports}; })()`);
 Object.assign(globalThis, { inMm, seriesColor, isDrawable, stockOf });
 const { drawCut, tablesDrawn } = need(`${root}/web/drawing.js`);
-const { typed, mistakesOf, rangeOf, unitOf, helpOf } = need(`${root}/web/form.js`);
+const { mistakesOf, rangeOf, unitOf, helpOf } = need(`${root}/web/form.js`);
 const { zipOf } = need(`${root}/web/files.js`);
 
 function cases() {
@@ -116,6 +118,36 @@ test('what is typed is what TOML takes', () => {
   assert.equal(unitOf(schema.properties.tool.properties.diameter_mm), 'mm');
 });
 
+test('lists of numbers are taken with decimal commas, but not where a comma may mean two things', () => {
+  const { tool, runout, cut, program } = JSON.parse(fs.readFileSync(`${root}/docs/formats/case.schema.json`, 'utf8')).properties;
+  const offsets = runout.properties.radial_offsets_mm;
+  const read = (text, schema = offsets) => parse(`a = ${typed(text, schema)}`).a;
+  for (const text of ['0,5; 1,5', '0,5;1,5', '0,5 1,5', '0.5, 1.5', '0.5,1.5', '.5 1.5', '0.5; 1,5;', ' 0,5   1,50 ']) assert.deepEqual(read(text), [0.5, 1.5], text);
+  for (const text of ['0; -5', '0 -5', '0, -5', '0,-5']) assert.deepEqual(read(text), [0, -5], text);
+  assert.deepEqual(read('1,5e-3; -,5'), [0.0015, -0.5]);
+  assert.deepEqual(read('0.01'), [0.01]);
+  assert.deepEqual(read('0,01;'), [0.01]);
+  assert.deepEqual(read('[0.5, 1]'), [0.5, 1]);
+  assert.equal(read('30', tool.properties.helix_deg), 30);
+  assert.deepEqual(read('30,5; 31', tool.properties.helix_deg), [30.5, 31]);
+  assert.deepEqual(read('-2,5 40', cut.properties.stock_y_mm), [-2.5, 40]);
+  assert.equal(read('equal', tool.properties.serration.properties.shift_mm), 'equal');
+  assert.deepEqual(read('1, 2', program.properties.ignore_tools), [1, 2]);
+  const way = 'The commas can be read in two ways. Write';
+  for (const [text, schema, said] of [['1,5,2,5', offsets, `${way} 1, 5, 2, 5 or 1,5; 2,5.`], ['0,5, 1,5', offsets, `${way} 0, 5, 1, 5 or 0,5; 1,5.`],
+                                      ['30,5', tool.properties.helix_deg, `${way} 30, 5 or 30.5.`], ['1,5,2', offsets, `${way} a semicolon between numbers.`],
+                                      ['1,5,2,5 3', offsets, `${way} a semicolon between numbers.`]]) {
+    assert.equal(read(text, schema), text);  // the program refuses it
+    assert.equal(unclearList(text, schema), said);
+  }
+  for (const text of ['1, 5 2', '1;;2', '1; x', ',', '1 2 -']) {
+    assert.equal(read(text), text);
+    assert.equal(unclearList(text, offsets), undefined);
+  }
+  assert.equal(unclearList([1, 5], offsets), undefined);
+  assert.equal(unclearList('1,5', { type: 'string' }), undefined);
+});
+
 test('units are told from tables and lists in brackets', () => {
   const { program, limits, stability, tool } = JSON.parse(fs.readFileSync(`${root}/docs/formats/case.schema.json`, 'utf8')).properties;
   assert.equal(unitOf(program.properties.tool_number), '');
@@ -157,12 +189,14 @@ test('values of a swept key are written as a person writes them', () => {
   assert.deepEqual(read('-2 to 3 in 6'), { from: -2, to: 3, count: 6 });
   assert.deepEqual(read('922 ± 9,5'), { mean: 922, sd: 9.5 });
   assert.deepEqual(read('1, 2.5, 1e3'), { values: [1, 2.5, 1e3] });
-  assert.deepEqual(read('0,1; 0,2'), { values: [0.1, 0.2] });
+  for (const text of ['0,1; 0,2', '0,1 0,2', '0.1,0.2']) assert.deepEqual(read(text), { values: [0.1, 0.2] });
+  assert.deepEqual(read('1, a'), { values: [1, 'a'] });
+  assert.deepEqual(read('0,1,0,2'), { values: '0,1,0,2' });  // the program refuses it
   assert.deepEqual(read('up, down'), { values: ['up', 'down'] });
   assert.deepEqual(read('[1, 2]'), { values: [1, 2] });
   assert.deepEqual(read('{ file = "a.csv", column = "b" }'), { file: 'a.csv', column: 'b' });
   assert.equal(valuesTyped(' '), null);
-  for (const text of ['500 .. 1500, 21', '0.1 .. 0.5', '922 ± 9', '1, 2, 3', 'up, down']) assert.equal(valuesShown(read(text)), text);
+  for (const text of ['500 .. 1500, 21', '0.1 .. 0.5', '922 ± 9', '1, 2, 3', 'up, down', '0,1,0,2']) assert.equal(valuesShown(read(text)), text);
 });
 
 test('swept keys are added, changed and left out, in either form of the table', () => {
