@@ -149,8 +149,9 @@ async function check() {
   if (mine !== page.checks) return;
   const rest = showMistakes($('form'), answer.code === 0 ? [] : mistakesOf(answer.err));
   $('mistakes').replaceChildren(...rest.map(({ line }) => element('li', {}, line)));
-  $('checked').textContent = answer.code === 0 ? answer.out : '';
-  $('state').textContent = answer.code === 0 ? 'No mistakes found.'
+  const isSound = answer.code === 0 && $('form').querySelector('[data-unclear]') === null;  // [sweep] is checked when it runs
+  $('checked').textContent = isSound ? answer.out : '';
+  $('state').textContent = isSound ? 'No mistakes found.'
     : `There are mistakes. ${rest.length === 0 ? 'Each one is shown at its field.' : 'Those without a field are listed here.'}`;
 }
 

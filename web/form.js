@@ -139,20 +139,25 @@ function mistakesOf(text) {
   });
 }
 
-/** Each mistake at its field, or at its table: commas in the form's words. @returns those that have no place */
+/** What is wrong with a field or a table, at its place. */
+function tellAt(form, place, text) {
+  const said = place.querySelector('.mistake');
+  said.textContent = text;
+  said.hidden = false;
+  place.classList.add('wrong');
+  for (let up = place.parentElement; up !== form; up = up.parentElement) up.open = true;
+}
+
+/** Each mistake at its field, or at its table; unclear lists in the form's words. @returns those that have no place */
 function showMistakes(form, mistakes) {
   for (const node of form.querySelectorAll('.mistake')) { node.hidden = true; node.textContent = ''; }
   form.querySelectorAll('.wrong').forEach((node) => node.classList.remove('wrong'));
+  form.querySelectorAll('[data-unclear]').forEach((place) => tellAt(form, place, place.dataset.unclear));
   const placeOf = (path) => form.querySelector(`[data-key="${CSS.escape(path)}"], [data-key="${path}"]`);
   return mistakes.filter(({ path, text }) => {
-    const place = path && (placeOf(path) ?? placeOf(path.replace(/_mm(?=$|_)/, '_in'))  // the program speaks of mm
-                           ?? placeOf(path.replace(/\.values$/, '')));
+    const place = path && (placeOf(path) ?? placeOf(path.replace(/_mm(?=$|_)/, '_in')));  // the program speaks of mm
     if (!place) return true;
-    const said = place.querySelector('.mistake');
-    said.textContent = place.dataset.unclear ?? text;
-    said.hidden = false;
-    place.classList.add('wrong');
-    for (let up = place.parentElement; up !== form; up = up.parentElement) up.open = true;
+    if (place.dataset.unclear === undefined) tellAt(form, place, text);
     return false;
   });
 }
