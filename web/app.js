@@ -161,29 +161,31 @@ function say(text, kind = '') {
 }
 
 async function run() {
+  const answered = { task: page.task, ...draft() };
   const folder = `${page.name.replace(/\.toml$/, '')}.${page.task}`;
   const args = [page.task, page.name, '-o', folder,
                 ...($('options').value.trim() === '' ? [] : $('options').value.trim().split(/\s+/))];
-  $('run').disabled = true;
+  $('run').disabled = $('written').disabled = true;
   $('stop').disabled = false;
   const begun = performance.now();
   const ticks = setInterval(() => { $('time').textContent = `${((performance.now() - begun) / 1000).toFixed(0)} s`; }, 500);
   say('Working …');
   try {
     const answer = await page.program.run('work', { args, files: allFiles(), folder }, (line) => say(line));
-    show(answer, folder, (performance.now() - begun) / 1000);
+    show(answer, answered, folder, (performance.now() - begun) / 1000);
   } catch (error) {
     say(error.message === 'stopped' ? 'Stopped.' : `The program failed: ${error.message}`, 'bad');
   } finally {
     clearInterval(ticks);
     $('time').textContent = '';
-    $('run').disabled = false;
+    $('run').disabled = $('written').disabled = false;
     $('stop').disabled = true;
   }
 }
 
-function show(answer, folder, seconds) {
-  page.answer = { folder, files: answer.files };
+function show(answer, answered, folder, seconds) {
+  page.answer = { answered, folder, files: answer.files };
+  showWritten();
   const names = Object.keys(answer.files).sort();
   const told = (answer.code === 2 || names.length === 0 ? answer.err || answer.out : answer.out).trim();
   say(`${answer.code === 0 ? 'Answered' : answer.code === 1 ? 'No good answer' : 'The input is wrong'} after ${seconds.toFixed(1)} s.`,
@@ -256,6 +258,8 @@ $('stop').addEventListener('click', () => page.program.stop('work'));
 $('pick').addEventListener('change', (e) => dropped(e.target.files));
 $('all').addEventListener('click', () => saveAs(zipOf(page.answer.files), `${page.answer.folder}.zip`));
 $('use').addEventListener('click', useAnswer);
+$('written').addEventListener('click', computeWritten);
+$('back').addEventListener('click', backToBefore);
 $('options').addEventListener('change', keep);
 addEventListener('pagehide', () => document.activeElement?.blur());  // what is typed is taken when it is left
 $('save-case').addEventListener('click', () => saveAs(new Blob([page.text], { type: 'application/toml' }), page.name));

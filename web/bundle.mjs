@@ -56,7 +56,7 @@ function examples() {
   return all;
 }
 
-const scripts = ['files.js', 'kept_files.js', 'case_text.js', 'lengths.js', 'drawing.js', 'typed.js', 'swept.js', 'form.js', 'renewed.js', 'dropped.js', 'program.js', 'cases.js', 'app.js'].map((file) => text(here, file));
+const scripts = ['files.js', 'kept_files.js', 'case_text.js', 'lengths.js', 'drawing.js', 'typed.js', 'swept.js', 'form.js', 'renewed.js', 'dropped.js', 'program.js', 'cases.js', 'written.js', 'app.js'].map((file) => text(here, file));
 const smol = `/*!\n${text(root, 'node_modules/smol-toml/LICENSE')}*/\nconst smolToml = (() => { const module = { exports: {} };\n${text(root, 'node_modules/smol-toml/dist/index.cjs')}\nreturn module.exports; })();`;
 const inScript = (script) => script.replaceAll('</script', '<\\/script');
 /** Licences of all that is in the page: of the scripts, and of what was compiled into the program. */

@@ -51,16 +51,8 @@ function fresh(task, from) {
   choose(task, from === undefined ? page.templates[task] : withToolOf(page.templates[task], from));
 }
 
-/** Another task: its case as it was left, or a new one with the tool at hand. */
-async function turnTo(task) {
-  const mine = ++page.turns;
-  const before = page.task;
-  page.drafts[before] = draft();
-  const left = page.drafts[task];
-  if (left === undefined) {
-    fresh(task, page.text === page.templates[before] ? undefined : page.text);
-    return;
-  }
+/** A case that was left, with the files of its example. @param mine the turn it is asked for in */
+async function comeBack(task, left, mine) {
   if (page.examples[left.example] && left.example !== page.loaded) {
     const files = await filesOfExample(left.example);
     if (mine !== page.turns) return;
@@ -74,4 +66,14 @@ async function turnTo(task) {
   Object.assign(page, { name: left.name, example: left.example });
   showFiles();
   choose(task, left.text);
+}
+
+/** Another task: its case as it was left, or a new one with the tool at hand. */
+async function turnTo(task) {
+  const mine = ++page.turns;
+  const before = page.task;
+  page.drafts[before] = draft();
+  const left = page.drafts[task];
+  if (left === undefined) fresh(task, page.text === page.templates[before] ? undefined : page.text);
+  else await comeBack(task, left, mine);
 }

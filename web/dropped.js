@@ -80,3 +80,5 @@ async function dropped(list) {
   showForm();
   check();
 }
+
+if (typeof module !== 'undefined') module.exports = { baseOf };

@@ -22,6 +22,8 @@ const { seriesColor, isDrawable, stockOf, profileOf, radiusAt, teethOf, edgeSeen
 Object.assign(globalThis, { inMm, seriesColor, isDrawable, stockOf });
 const { drawCut, tablesDrawn } = need(`${root}/web/drawing.js`);
 const { mistakesOf, rangeOf, unitOf, helpOf } = need(`${root}/web/form.js`);
+Object.assign(globalThis, { withoutTable, baseOf: need(`${root}/web/dropped.js`).baseOf });
+const { writtenCase } = need(`${root}/web/written.js`);
 const { zipOf } = need(`${root}/web/files.js`);
 
 function cases() {
@@ -259,6 +261,24 @@ test('a new case takes the tool of another along', () => {
   const text = withToolOf('# a\n[tool]\nteeth = 2 # of it\n\n# the cut\n[cut]\nspindle_rpm = 1\n', 'title = "b"\n[tool]\nteeth = 4\npitch_deg = [80,\n100, 90, 90]\n\n# more\n[cut]\n');
   assert.equal(text, '# a\n[tool]\nteeth = 4\npitch_deg = [80,\n100, 90, 90]\n\n# the cut\n[cut]\nspindle_rpm = 1\n');
   assert.equal(withToolOf('[step]\n', '[tool]\n'), '[step]\n');
+});
+
+test('a program that [feed] wrote becomes the next case, without what belongs to the old one', () => {
+  const read = (text) => { try { return parse(text); } catch { return null; } };
+  const of = (text, name = 'case.toml') => writtenCase({ name, text, files: { 'new.nc': 'bytes', 'summary.json': '' } }, read);
+  const pocket = of(fs.readFileSync(`${root}/examples/pocket/feed.toml`, 'utf8').replace('part_feed.nc', 'new.nc'), 'feed.toml');
+  assert.deepEqual([pocket.name, pocket.file, pocket.bytes], ['feed_written.toml', 'feed_written/new.nc', 'bytes']);
+  const { title, include, limits, program, feed } = parse(pocket.text);
+  assert.deepEqual([title, include, limits.peak_tooth_N, program, feed],
+                   ['The same pocket with new feeds: 250 N for a tooth (new.nc)', 'case.toml', 250, { file: 'feed_written/new.nc' }, undefined]);
+  const whole = '[program]\nfile = "old.nc" # ours\nplaces = [[3, 0.5]]\nstep_turns = 2\n[feed]\nwrite = "new.nc"\n[[measurement]]\nfile = "a.csv"\n[tool]\nteeth = 2\n';
+  assert.deepEqual(parse(of(whole).text), { program: { file: 'case_written/new.nc', step_turns: 2 }, tool: { teeth: 2 } });
+  assert.match(of(whole).text, /^file = "case_written\/new\.nc" +# ours$/m);
+  assert.deepEqual(parse(of('feed = { write = "new.nc" }\n[program]\nfile = "old.nc"\n').text), { program: { file: 'case_written/new.nc' } });
+  const deep = of(whole, 'jobs/a.toml');
+  assert.deepEqual([deep.name, deep.file, parse(deep.text).program.file], ['jobs/a_written.toml', 'jobs/a_written/new.nc', 'a_written/new.nc']);
+  for (const text of [whole.replace('"new.nc"', '"other.nc"'), whole.replace('write', '# write'), '[program', 'feed.write = "new.nc"\n[program]\nfile = "old.nc"\n',
+                      'program = { file = "old.nc" }\n[feed]\nwrite = "new.nc"\n']) assert.equal(of(text), undefined, text);
 });
 
 /** What is painted on a canvas: texts, and all places. */
