@@ -19,19 +19,19 @@ const width = 1040;
 // its height]; without a part it is the first screen.
 const shown = {
   identify: ['identify', 'st52_slot/case.toml', 'Which coefficients and which runout does a force record tell, and how well?', '', 1060],
-  identify_ringing: ['identify', 'ringing_dynamometer/case.toml', 'What if the dynamometer rings?', '#overview', 620],
+  identify_ringing: ['identify', 'ringing_dynamometer/case.toml', 'What if the dynamometer rings?', '#overview', 650],
   simulate: ['simulate', 'ball/case.toml', 'Which forces does a cut make?', '', 1060],
   chip: ['simulate', 'up_milling_runout/case.toml', 'What does runout do to the chip of each tooth?', '#chip', 740],
   plan: ['plan', 'plan_next_cut/case.toml', 'Which cut tells most next?', '', 980],
-  surface: ['surface', 'thin_wall_2mm_4mm/case.toml', 'Which error does a cut leave on a thin wall?', '#map', 660],
-  bent: ['surface', 'thin_wall_2mm_4mm/case.toml', 'How do cutter and wall bend?', '#bent', 620],
+  surface: ['surface', 'thin_wall_2mm_4mm/case.toml', 'Which error does a cut leave on a thin wall?', '#map', 700],
+  bent: ['surface', 'thin_wall_2mm_4mm/case.toml', 'How do cutter and wall bend?', '#bent', 690],
   calibrate: ['calibrate', 'thin_wall_calibrate/case.toml', 'Which coefficients does a measured wall tell?', '', 1000],
   modes: ['modes', 'tap_test/hammer.csv', 'Which modes does a tap test show?', '', 1060],
-  stability: ['stability', 'stability_922Hz/case.toml', 'How deep may it cut, and at which speed deeper?', '', 1060],
+  stability: ['stability', 'stability_922Hz/case.toml', 'How deep may it cut, and at which speed deeper?', '', 1280],
   dynamics: ['dynamics', 'runout_table_8mm/sine.toml', 'What does a cut with runout do to tool and table?', '', 1240],
   correct: ['correct', 'runout_correction/case.toml', 'How does a table take the runout away?', '#flutes', 620],
-  correct_speeds: ['correct', 'runout_correction/case.toml', 'Up to which speed?', '#speeds', 820],
-  sweep: ['sweep', 'uncertain_stability/case.toml', 'What is the limit depth with what is not known of the tool?', '', 720],
+  correct_speeds: ['correct', 'runout_correction/case.toml', 'Up to which speed?', '#speeds', 850],
+  sweep: ['sweep', 'uncertain_stability/case.toml', 'What is the limit depth with what is not known of the tool?', '', 800],
 };
 const before = { sweep: ['modes', 'uncertain_stability/tip.toml'] };
 const browserPage = 'The same without installing anything: the page for browsers';
@@ -84,12 +84,12 @@ async function make(names) {
     run(command, file, '-q', '-o', name);
     const url = pathToFileURL(path.join(place, name, 'report.html')).href;
     await photograph(browser, url, path.join(pictures, `${name}.png`), { part, height });
-    if (name === 'identify') await photograph(browser, url, path.join(root, 'docs/pictures/report.png'), { height: 1740 });
+    if (name === 'identify') await photograph(browser, url, path.join(root, 'docs/pictures/report.png'), { height: 1830 });
   }
   const app = path.join(root, 'build/web/trochoid/index.html');
   if (names.includes('browser') && fs.existsSync(app)) {
     await photograph(browser, pathToFileURL(app).href, path.join(pictures, 'browser.png'),
-                     { height: 1180, ready: async (tab) => {
+                     { height: 1330, ready: async (tab) => {
                        await tab.waitForSelector('body.ready');
                        await tab.selectOption('#example', 'identify st52_slot/case.toml');
                        await tab.waitForFunction(() => window.trochoidPage.started);
