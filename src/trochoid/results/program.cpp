@@ -352,7 +352,7 @@ std::string short_table(const ProgramResult& r) {
   row("deflection um", all.deflection, &PeakErrors::deflection, unit::um);
   row("chip mm", all.chip, &PeakErrors::chip, unit::mm);
   for (const BrokenLimit& one : r.forces->broken) {
-    out += fmt::format("limit {} = {:.4g}: {} lines go beyond it, up to {:.4g}\n",
+    out += fmt::format("limit {} = {:.4g}: {} lines go beyond it, up to {:.6g}\n",
                        one.limit, one.allowed, one.lines.size(), one.worst);
   }
   out += walls_and_chatter(*r.forces);

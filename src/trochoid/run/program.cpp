@@ -511,7 +511,7 @@ void say(const ProgramForces& forces, std::size_t moves, results::Heading& headi
     heading.warnings.push_back(
         {"limit_broken",
          fmt::format(
-             "{} = {:.4g}: {} lines go beyond it, line {} first; the most is {:.4g}",
+             "{} = {:.4g}: {} lines go beyond it, line {} first; the most is {:.6g}",
              one.limit, one.allowed, one.lines.size(), one.lines.front(), one.worst)});
   }
 }
