@@ -95,6 +95,7 @@ struct NcProgram {
   std::vector<ToolName> ignored_tools;
   std::vector<std::string> ignored_words;
   std::vector<double> origin = {0.0, 0.0, 0.0};  ///< [m]
+  std::vector<double> start;                     ///< before the first block [m]
   NamedPlaces offsets;                           ///< [m]
   Compensation compensation = Compensation::refuse;
   bool block_delete = false;

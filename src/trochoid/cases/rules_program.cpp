@@ -235,6 +235,8 @@ program::ReadOptions read_options(const ProgramTables& nc) {
   }
   options.ignored_words = p.ignored_words;
   std::ranges::copy_n(p.origin.begin(), 3, options.origin.begin());
+  if (!p.start.empty())
+    std::ranges::copy_n(p.start.begin(), 3, options.start.emplace().begin());
   options.offsets = p.offsets;
   options.wear_zero = p.compensation == Compensation::wear_zero;
   options.block_delete = p.block_delete;

@@ -47,6 +47,15 @@ void describe_frame(const Visitor& v, NcProgram& t) {
      .range = coordinate,
      .count = 3},
     &t.origin);
+  v({.name = "start_mm",
+     .meaning =
+         "where the tip is before the first block, from program zero; needed where "
+         "the program begins with a feed move",
+     .range = coordinate,
+     .count = 3,
+     .standard = "not known",
+     .example = "[0, 0, 50]"},
+    &t.start);
   v({.name = "offsets_mm",
      .meaning = "zero of each work offset from there; needed from the second one that "
                 "the program uses on",

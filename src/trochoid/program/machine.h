@@ -43,8 +43,9 @@ struct Machine {
   bool center_absolute = false;
   bool to_r_level = false;
   CycleMemory cycle;
-  std::string offset;     ///< the first work offset; empty: none yet
-  bool doubtful = false;  ///< after a problem: what may follow from it is not told
+  std::string offset;          ///< the first work offset; empty: none yet
+  std::array<bool, 3> left{};  ///< axes that went to a place that is not in the program
+  bool doubtful = false;       ///< after a problem: what may follow from it is not told
 };
 
 /// @brief A program while it is read.

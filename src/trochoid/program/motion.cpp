@@ -99,8 +99,9 @@ bool knows_place(Motion& o) {
     o.complain(o.axes[i] != nullptr ? o.axes[i]->at : o.first_axis(),
                Fault::unknown_position,
                fmt::format("a feed move, and where {} is before is not known; let a "
-                           "rapid lead there first",
-                           axis_letters[i]));
+                           "rapid lead there first{}",
+                           axis_letters[i],
+                           m.left[i] ? "" : ", or give start_mm in [program]"));
     return false;
   }
   return false;
@@ -124,6 +125,17 @@ void move_on_line(Motion& o) {
 }
 
 namespace {
+
+/// Axes go to a place that is not in the program: G53, G75, CYCLE800 that lifts.
+void go_elsewhere(Motion& o, std::array<bool, 3> axes) {
+  Machine& m = o.machine();
+  std::array<double, 3> end = m.place;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (axes[i]) end[i] = unknown;
+    m.left[i] = m.left[i] || axes[i];
+  }
+  rapid_to(o, end, MoveNote::retract);
+}
 
 /// G28, G30: by a place of the program to one that is not in it.
 void go_home(Motion& o) {
@@ -152,20 +164,8 @@ void go_home(Motion& o) {
       std::ranges::none_of(named, [](const Word* w) { return w != nullptr; })) {
     return;
   }
-  std::array<double, 3> end = m.place;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (all || named[i] != nullptr) end[i] = unknown;
-  }
-  rapid_to(o, end, MoveNote::retract);
-}
-
-/// Axes go to a place that is not in the program: G53, G75, CYCLE800 that lifts.
-void go_elsewhere(Motion& o, std::array<bool, 3> axes) {
-  std::array<double, 3> end = o.machine().place;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (axes[i]) end[i] = unknown;
-  }
-  rapid_to(o, end, MoveNote::retract);
+  go_elsewhere(o, {all || named[0] != nullptr, all || named[1] != nullptr,
+                   all || named[2] != nullptr});
 }
 
 /// G53, G153, SUPA: a place in the frame of the machine.

@@ -33,6 +33,7 @@ enum class MoveNote : std::uint8_t {
   none,
   cycle,    ///< of a drilling cycle
   retract,  ///< to a place that is not in the program: G28, G30, G53, SUPA
+  start,    ///< none: where the machine stands before the first block
 };
 
 /// As files spell it.
@@ -44,6 +45,8 @@ constexpr std::string_view name_of(MoveNote note) noexcept {
       return "cycle";
     case MoveNote::retract:
       return "retract";
+    case MoveNote::start:
+      return "start";
   }
   return {};
 }

@@ -85,6 +85,17 @@ std::string_view without_byte_order_mark(std::string_view text) noexcept {
   return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
+/// The machine stands somewhere before the first block.
+void begin_at(Run& run, const std::array<double, 3>& start) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    run.machine.place[i] = run.options.origin[i] + start[i];
+  }
+  run.program.moves.push_back({.end = run.machine.place,
+                               .line = 1,
+                               .kind = MoveKind::rapid,
+                               .note = MoveNote::start});
+}
+
 ProgramText heidenhain(std::string_view text, std::size_t at) {
   Block block;
   std::size_t start = 0;
@@ -121,6 +132,7 @@ ProgramText read_program(std::string_view bytes, const ReadOptions& options) {
           .changes_tool = outline.changes_tool};
   run.machine.shift = options.origin;
   run.program.zeros.push_back({0, options.origin});
+  if (options.start) begin_at(run, *options.start);
   run.program.dialect = outline.dialect;
   read_blocks(run, text);
   remark_on_points(run);

@@ -19,6 +19,7 @@ struct ReadOptions {
   std::string name;                        ///< of the file, for its ending
   std::vector<std::string> ignored_words;  ///< that may be unknown: M10
   std::array<double, 3> origin{};  ///< program zero in the frame of the stock [m]
+  std::optional<std::array<double, 3>> start;  ///< place before the first block [m]
   /// Zero of each work offset from the origin [m]: G54, G54.1P3.
   std::map<std::string, std::array<double, 3>> offsets;
   bool wear_zero = false;     ///< G41 and G42 are accepted: the path is the center's

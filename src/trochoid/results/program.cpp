@@ -52,7 +52,7 @@ const Columns<ProgramResult>& move_columns() {
         [](R r, std::size_t i) { return name_of(r.program.moves[i].kind); }},
        {"note",
         "`cycle`: of a drilling cycle; `retract`: to a place that is not in the program "
-        "(G28, G30, G53, SUPA)",
+        "(G28, G30, G53, SUPA); `start`: where `start_mm` of [program] says",
         [](R r, std::size_t i) { return name_of(r.program.moves[i].note); }},
        {"x_mm", "end of the move in the frame of the stock; empty: not known",
         of([](const Move& m) { return m.end[0]; })},

@@ -167,6 +167,27 @@ TEST(ReadProgram, AHalfCircleByItsRadiusIsExact) {
   EXPECT_NEAR(moves[1].center[1], 0.7e-3, 1e-15);
 }
 
+TEST(ReadProgram, AStartThatIsGivenLetsAFeedMoveBeTheFirst) {
+  const std::string text = "G21 G90 S1000 M3 F100\nG1 X5 Z-1\nG28 Z0\nG1 Z-2";
+  const auto without = program::read_program(text, {});
+  ASSERT_EQ(without.problems.size(), 1U);
+  EXPECT_NE(without.problems[0].text.find("start_mm"), std::string::npos);
+  const auto given = program::read_program(
+      text, {.origin = {1e-3, 0.0, 0.0}, .start = {{0.0, 2e-3, 3e-3}}});
+  ASSERT_EQ(given.problems.size(), 1U) << "of the axis that left";
+  EXPECT_EQ(given.problems[0].place.line, 4U);
+  EXPECT_EQ(given.problems[0].text.find("start_mm"), std::string::npos);
+  const auto moves =
+      program::read_program("G21 G90 S1000 M3 F100\nG1 X5 Z-1",
+                            {.origin = {1e-3, 0.0, 0.0}, .start = {{0.0, 2e-3, 3e-3}}})
+          .program.moves;
+  ASSERT_EQ(moves.size(), 2U);
+  EXPECT_EQ(moves[0].note, program::MoveNote::start);
+  EXPECT_NEAR(moves[0].end[0], 1e-3, 1e-15);
+  EXPECT_NEAR(moves[1].end[0], 6e-3, 1e-15);
+  EXPECT_NEAR(moves[1].end[1], 2e-3, 1e-15);
+}
+
 TEST(ReadProgram, TheEndOfAMirrorIsNoMove) {
   const auto moves = moves_behind_head("G0 X5 Y7\nG50.1 X0 Y0 Z0\nG1 X6 F100");
   ASSERT_EQ(moves.size(), 2u);
