@@ -145,15 +145,10 @@ class Splitter {
            number_text(ends_[k + 1][axis] - before, last || steps ? 7 : digits_);
   }
 
+  /// By the center where the program gives the radius, too: near half a circle rounded ends
+  /// and a radius tell little of it.
   [[nodiscard]] std::vector<std::string> center_words(std::size_t k) const {
     std::vector<std::string> out;
-    if (const Word* radius = find(block_, 'R')) {
-      const double from = k == 0 ? 0.0 : parts_[k - 1].to;
-      const bool shorter =
-          std::abs(move_.turn) * (parts_[k].to - from) <= whole_turn / 2;
-      out.push_back('R' + number_text((shorter ? 1 : -1) * std::abs(radius->value), 7));
-      return out;
-    }
     const Point center = in_program({move_.center[0], move_.center[1], 0.0});
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const bool by_place = (move_.writing & center_by_place) != 0;
@@ -190,6 +185,9 @@ class Splitter {
         if (words[w].front() != letter) continue;
         placed[w] = true;
         if (!is_center) texts[i] = words[w];  // it starts where it did
+      }
+      if (letter == 'R' && is_arc()) {
+        for (const std::string& word : center_words(0)) append(word, texts[i]);
       }
       if (letter == 'F') {
         has_F = true;

@@ -28,9 +28,12 @@ const Word* feed_word(const Block& block) noexcept {
   return at == block.words.end() ? nullptr : &*at;
 }
 
-bool is_dwell(const Block& block) noexcept {
-  return std::ranges::any_of(
-      block.words, [](const Word& w) { return w.letter == 'G' && w.value == 4; });
+/// In Sinumerik F of a dwell is a time; elsewhere it is a feed.
+bool is_dwell(const Block& block, Dialect dialect) noexcept {
+  return dialect == Dialect::sinumerik &&
+         std::ranges::any_of(block.words, [](const Word& w) {
+           return w.letter == 'G' && w.value == 4;
+         });
 }
 
 /// A number that is whole has a point where others of the program have one.
@@ -96,12 +99,12 @@ class FeedWriter {
   void write_block(const Block& block) {
     const auto moves = moves_of(block.line);
     const auto fed = std::ranges::find_if(moves, is_fed);
-    const Word* F = feed_word(block);
-    if (F != nullptr && F->has_value && !is_dwell(block)) {
+    const Word* F = is_dwell(block, program_.dialect) ? nullptr : feed_word(block);
+    if (F != nullptr && F->has_value) {
       point_ = text_of(block, *F).find('.') != std::string_view::npos;
     }
     if (fed == moves.end()) {
-      if (F != nullptr && !is_dwell(block) && !block.deleted) current_.reset();
+      if (F != nullptr) current_ = what_holds_behind(block);
       return copy(block.text);
     }
     const auto parts = parts_of(moves.size());
@@ -119,6 +122,13 @@ class FeedWriter {
     if (F == nullptr) return copy(with_words(block, texts, ' ' + text));
     texts[static_cast<std::size_t>(F - block.words.data())] = text;
     copy(with_words(block, texts, ""));
+  }
+
+  /// Behind an F without a move. A block with / may be left out at the machine: then it is
+  /// not known which feed holds, and the next one is written.
+  static std::optional<std::string> what_holds_behind(const Block& block) {
+    if (!block.deleted && block.optional_from == Block::all) return std::nullopt;
+    return std::string("not known");
   }
 
   void write_parts(const MoveBlock& of, std::span<const FeedPart> parts) {

@@ -93,7 +93,42 @@ TEST(WriteFeeds, SplitsAnArc) {
   EXPECT_EQ(written(head + "G1 X1 F600\nG3 X-1 I-1\n", 6, {{0.5, 600}, {1, 200}}),
             head + "G1 X1 F600\nG3 X0. I-1 Y1.\nG3 X-1 Y0. I0. J-1. F200\n");
   EXPECT_EQ(written(head + "G1 X1 F600\nG3 X-1 R1\n", 6, {{0.5, 600}, {1, 200}}),
-            head + "G1 X1 F600\nG3 X0. R1. Y1.\nG3 X-1 Y0. R1. F200\n");
+            head + "G1 X1 F600\nG3 X0. I-1. J0. Y1.\nG3 X-1 Y0. I0. J-1. F200\n");
+}
+
+TEST(WriteFeeds, ASplitHalfCircleByItsRadiusStaysOnItsCircle) {
+  const std::string text = head + "G1 X50.123 Y7.457 F600\nG3 X-49.877 R50.\n";
+  const Program after = read(written(text, 6, {{0.0137, 600}, {0.993, 200}, {1, 600}}));
+  ASSERT_EQ(after.moves.size(), 5U);
+  for (std::size_t m = 2; m < 5; ++m) {
+    const Move& arc = after.moves[m];
+    const auto& start = after.moves[m - 1].end;
+    const double from = std::atan2(start[1] - arc.center[1], start[0] - arc.center[0]);
+    const double r = std::hypot(start[1] - arc.center[1], start[0] - arc.center[0]);
+    for (const double u : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const double x = arc.center[0] + r * std::cos(from + u * arc.turn);
+      const double y = arc.center[1] + r * std::sin(from + u * arc.turn);
+      EXPECT_NEAR(std::hypot(x - 0.123e-3, y - 7.457e-3), 50e-3, 1.5e-6) << m;
+    }
+  }
+}
+
+TEST(WriteFeeds, AFeedBesideADwellOrBehindASlashIsWrittenAgain) {
+  EXPECT_EQ(written(head + "G1 X10 F300\nG4 P0.1 F300\nG1 X20\nX30\n", 7, {{1, 30}}),
+            head + "G1 X10 F300\nG4 P0.1 F300\nG1 X20 F30\nX30 F300\n");
+  const std::string slow = "G1 X10 F300\nX15 F30\n";
+  const std::string given = head + "G1 X10 F300\nX15\nG4 P0.1 F300\nG1 X20\n";
+  EXPECT_EQ(
+      write_feeds(
+          given, read(given),
+          [&] {
+            auto parts = parts_of_line(read(given), 6, {{1, 30}});
+            for (const FeedPart& part : parts_of_line(read(given), 8, {{1, 30}})) {
+              parts.push_back(part);
+            }
+            return parts;
+          }()),
+      head + slow + "G4 P0.1 F300\nG1 X20 F30\n");
 }
 
 TEST(WriteFeeds, DoesNotSplitWhatHoldsMoreThanAMove) {
