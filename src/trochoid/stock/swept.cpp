@@ -378,6 +378,48 @@ std::vector<double> levels(const Path& path, Heights within) {
   return out;
 }
 
+/// Whether the walls of a piece lie along the lines of a scan.
+bool is_along_x(const Piece& piece) noexcept {
+  return !piece.arc() && piece.from[1] == piece.to[1] && piece.from[0] != piece.to[0];
+}
+
+/// Where the stock of the start has walls along x.
+std::vector<double> walls_along_x(const Initial& initial) {
+  if (const auto* box = std::get_if<Box>(&initial)) return {box->low[1], box->high[1]};
+  return {};
+}
+
+/// More breaks than so many for each line are not worth their time.
+constexpr double breaks_for_a_line = 8.0;
+
+struct ScanLine {
+  double y;       ///< [m]
+  double height;  ///< that it stands for [m]
+};
+
+/// Lines in the middles of strips between breaks, none of them higher than a step.
+/// @param breaks  the first and the last among them
+std::vector<ScanLine> scan_lines(std::vector<double> breaks, const Initial& initial,
+                                 double step) {
+  constexpr double same = 1e-9;
+  const auto [low, high] = std::ranges::minmax(breaks);
+  for (const double y : walls_along_x(initial)) {
+    if (y > low && y < high) breaks.push_back(y);
+  }
+  std::ranges::sort(breaks);
+  std::vector<ScanLine> out;
+  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+    const double strip = breaks[i + 1] - breaks[i];
+    if (!(strip > same)) continue;
+    const auto lines = static_cast<std::size_t>(strip / step) + 1;
+    const double h = strip / static_cast<double>(lines);
+    for (std::size_t k = 0; k < lines; ++k) {
+      out.push_back({breaks[i] + (static_cast<double>(k) + 0.5) * h, h});
+    }
+  }
+  return out;
+}
+
 /// Area swept at a height.
 double swept_area(const Swept& swept, double z, double step) {
   struct Reach {
@@ -398,16 +440,19 @@ double swept_area(const Swept& swept, double z, double step) {
   }
   if (reaches.empty()) return 0.0;
   std::ranges::stable_sort(reaches, {}, &Reach::from);  // moves in a row stay in a row
-  const double from = reaches.front().from;
-  const double to = std::ranges::max_element(reaches, {}, &Reach::to)->to;
-  const auto lines = static_cast<std::size_t>((to - from) / step) + 1;
-  const double h = (to - from) / static_cast<double>(lines);
+  std::vector<double> breaks{reaches.front().from,
+                             std::ranges::max_element(reaches, {}, &Reach::to)->to};
+  const auto most = static_cast<std::size_t>(breaks_for_a_line *
+                                             ((breaks[1] - breaks[0]) / step + 1));
+  for (const Reach& r : reaches) {
+    if (is_along_x(*r.piece)) breaks.insert(breaks.end(), {r.from, r.to});
+  }
+  if (breaks.size() > most) breaks.resize(2);  // of so many walls none counts
   Scan scan(swept, z);
   std::vector<Reach> active;
   std::size_t next = 0;
   double sum = 0.0;
-  for (std::size_t i = 0; i < lines; ++i) {
-    const double y = from + (static_cast<double>(i) + 0.5) * h;
+  for (const auto& [y, h] : scan_lines(std::move(breaks), swept.initial(), step)) {
     for (; next < reaches.size() && reaches[next].from < y; ++next) {
       active.push_back(reaches[next]);
     }
@@ -417,9 +462,9 @@ double swept_area(const Swept& swept, double z, double step) {
     for (const Reach& r : active) {
       scan.add(*r.piece, y);
     }
-    sum += scan.swept_length(stock.from, stock.to);
+    sum += h * scan.swept_length(stock.from, stock.to);
   }
-  return sum * h;
+  return sum;
 }
 
 }  // namespace

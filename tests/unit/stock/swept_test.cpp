@@ -250,6 +250,15 @@ TEST(Swept, AVolumeIsThatOfItsSlot) {  // [N-9]
   EXPECT_NEAR(volume_removed(swept, 1e-5), area * 2e-3, 1e-4 * area * 2e-3);
 }
 
+TEST(Swept, WallsAlongTheLinesOfTheScanAreNoError) {  // [N-9]
+  const std::vector<Move> moves{move(MoveKind::rapid, -0.05, 0.0201, -0.002),
+                                move(MoveKind::line, 0.05, 0.0201, -0.002)};
+  const Initial thin = Box{{-0.03, 0.01505, -0.01}, {0.03, 0.0152, 0.0}};
+  const Swept swept(stock::path(moves, 0.1), thin, {Wall::upright(5e-3)});
+  const double volume = 0.06 * (0.0152 - 0.0151) * 2e-3;
+  EXPECT_NEAR(volume_removed(swept, 1e-4), volume, 1e-6 * volume);
+}
+
 TEST(Swept, AVolumeOfARingIsThatOfItsRing) {  // [N-9]
   const std::vector<Move> moves{move(MoveKind::rapid, 0.02, 0, 0.001),
                                 move(MoveKind::line, 0.02, 0, -0.002),
