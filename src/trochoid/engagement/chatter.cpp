@@ -17,7 +17,7 @@ namespace trochoid::engagement {
 namespace {
 
 /// Cuts are one within these.
-constexpr double shared_arc = 2 * unit::deg;
+constexpr double shared_arc = 1 * unit::deg;
 constexpr double shared_direction = 5 * unit::deg;
 constexpr double shared_height = 0.01;  // of the diameter
 constexpr double shared_feed = 0.05;    // relative
@@ -99,19 +99,20 @@ class Asked {
  public:
   Asked(const SharedCut& cut, const Tool& tool, const Vibration& vibration)
       : cut_(cut),
+        height_(cut.a_p - cut.layers.front().from),
         system_(seen_along(vibration.system, cut.direction)),
         model_(setup_of(cut, tool), tool.law, vibration.chip_floor, matrices_tolerance,
-               {deepest * cut.a_p,
+               {cut.layers.front().from + deepest * height_,
                 cut.spindle / dynamics::fastest_frequency(vibration.system)}) {}
 
   [[nodiscard]] ChatterLimit limit() const {
     ChatterLimit out{.known = true, .margin = deepest};
-    const double here = growth(cut_.a_p);
+    const double here = growth(height_);
     const auto found = here < 0 ? from_below(here) : from_above(here);
     if (found) {
       out.depth = *found;
-      out.margin = *found / cut_.a_p;
-      const dynamics::Directional at = model_.at_depth(*found);
+      out.margin = *found / height_;
+      const dynamics::Directional at = at_height(*found);
       const double factor =
           dynamics::multiplier(at, system_, cut_.spindle, multiplier_tolerance).factor;
       const auto lines =
@@ -124,12 +125,16 @@ class Asked {
 
  private:
   struct Tried {
-    double depth = 0.0;
+    double depth = 0.0;   ///< of the stock
     double growth = 0.0;  ///< ln |mu|
   };
 
+  /// With stock of a height, which may begin above the tip.
+  [[nodiscard]] dynamics::Directional at_height(double height) const {
+    return model_.at_depth(cut_.layers.front().from + height);
+  }
   [[nodiscard]] double growth(double depth) const {
-    return growth_of(model_.at_depth(depth), cut_.spindle);
+    return growth_of(at_height(depth), cut_.spindle);
   }
   [[nodiscard]] double growth_of(const dynamics::Directional& at,
                                  double spindle) const {
@@ -139,9 +144,9 @@ class Asked {
 
   /// The next depth at which a stable cut becomes unstable.
   [[nodiscard]] std::optional<double> from_below(double here) const {
-    Tried stable{cut_.a_p, here};
-    while (stable.depth < deepest * cut_.a_p) {
-      const double next = std::min(search_step * stable.depth, deepest * cut_.a_p);
+    Tried stable{height_, here};
+    while (stable.depth < deepest * height_) {
+      const double next = std::min(search_step * stable.depth, deepest * height_);
       const Tried tried{next, growth(next)};
       if (tried.growth >= 0) return root(stable, tried);
       stable = tried;
@@ -151,8 +156,8 @@ class Asked {
 
   /// The next depth at which an unstable cut becomes stable.
   [[nodiscard]] std::optional<double> from_above(double here) const {
-    Tried unstable{cut_.a_p, here};
-    while (unstable.depth > shallowest * cut_.a_p) {
+    Tried unstable{height_, here};
+    while (unstable.depth > shallowest * height_) {
       const double next = unstable.depth / search_step;
       const Tried tried{next, growth(next)};
       if (tried.growth < 0) return root(tried, unstable);
@@ -183,7 +188,7 @@ class Asked {
 
   /// The nearest speed at which the cut is stable, with the same feed of a tooth.
   [[nodiscard]] std::optional<double> better() const {
-    const dynamics::Directional at = model_.at_depth(cut_.a_p);
+    const dynamics::Directional at = at_height(height_);
     const double allowed = std::log(clearly_stable);
     for (double off = speed_step; off <= farthest_speed; off += speed_step) {
       for (const double side : {1.0, -1.0}) {
@@ -195,6 +200,7 @@ class Asked {
   }
 
   const SharedCut& cut_;
+  double height_;  ///< of the stock [m]
   dynamics::System system_;
   dynamics::DirectionalModel model_;
 };
@@ -222,6 +228,26 @@ bool answers_alike(const dynamics::System& system) {
 SharedCuts::SharedCuts(std::span<const Tool> tools,
                        std::span<const Vibration> vibrations)
     : tools_(tools), vibrations_(vibrations) {}
+
+/// Whether two cuts of a kind are the same but for rounding.
+bool is_same(const SharedCut& a, const SharedCut& b) {
+  constexpr double same_angle = 1e-4;
+  constexpr double same_part = 1e-3;
+  const auto near = [](double p, double q, double off) {
+    return std::abs(p - q) < off;
+  };
+  if (!near(a.f_z, b.f_z, same_part * a.f_z) ||
+      !near(a.direction, b.direction, same_part)) {
+    return false;
+  }
+  return std::ranges::equal(a.layers, b.layers, [&](const Layer& p, const Layer& q) {
+    return near(p.from, q.from, same_part * a.a_p) &&
+           near(p.to, q.to, same_part * a.a_p) &&
+           std::ranges::equal(p.arcs, q.arcs, [&](const auto& m, const auto& n) {
+             return near(m.from, n.from, same_angle) && near(m.to, n.to, same_angle);
+           });
+  });
+}
 
 void SharedCuts::add(std::span<const Step> steps, std::vector<std::int32_t>& which) {
   for (const Step& step : steps) {
@@ -251,10 +277,26 @@ void SharedCuts::add(std::span<const Step> steps, std::vector<std::int32_t>& whi
     const auto [at, is_new] =
         known_.try_emplace(std::move(key), static_cast<std::int32_t>(cuts_.size()));
     if (is_new) {
-      cuts_.push_back({tool, step.spindle, step.f_z, step.layers.back().to,
-                       alike ? 0.0 : step.direction, std::move(bands), 0.0, step.line});
+      cuts_.emplace_back();
+      leads_.push_back(0.0);
     }
-    cuts_[static_cast<std::size_t>(at->second)].duration += step.duration;
+    const auto k = static_cast<std::size_t>(at->second);
+    const SharedCut here{.tool = tool,
+                         .spindle = step.spindle,
+                         .f_z = step.f_z,
+                         .a_p = step.layers.back().to,
+                         .direction = alike ? 0.0 : step.direction,
+                         .layers = std::move(bands),
+                         .duration = cuts_[k].duration + step.duration,
+                         .line = is_new ? step.line : cuts_[k].line};
+    // The cut that most of the time has stands for all: not the first, at an entry.
+    if (is_same(here, cuts_[k])) {
+      leads_[k] += step.duration;
+    } else if ((leads_[k] -= step.duration) < 0) {
+      leads_[k] = step.duration;
+      cuts_[k] = here;
+    }
+    cuts_[k].duration = here.duration;
     which.push_back(at->second);
   }
 }

@@ -21,14 +21,15 @@ struct Vibration {
   double chip_floor = 2e-6;  ///< as in StabilityOptions [m]
 };
 
-/// @brief A cut that many steps share, but for two degrees of their arcs, a hundredth of the
-/// diameter of their layers, 5 % of their feed and 5 degrees of its direction. Stock of more
-/// than three layers becomes three bands of one height, with the arcs at their middles.
+/// @brief A cut that many steps share, but for a degree of their arcs, a hundredth of the
+/// diameter of their layers, 5 % of their feed and 5 degrees of its direction: the one that
+/// most of their time has. Stock of more than three layers becomes three bands of one
+/// height, with the arcs at their middles.
 struct SharedCut {
   std::size_t tool = 0;    ///< of the job
   double spindle = 0.0;    ///< [rad/s]
   double f_z = 0.0;        ///< [m]
-  double a_p = 0.0;        ///< [m]
+  double a_p = 0.0;        ///< up to where the stock reaches above the tip [m]
   double direction = 0.0;  ///< of the feed from +x [rad]
   std::vector<Layer> layers;
   double duration = 0.0;   ///< of all steps that share it [s]
@@ -38,10 +39,10 @@ struct SharedCut {
 /// How a cut stands to chatter.
 struct ChatterLimit {
   bool known = false;  ///< false: it was not looked at
-  /// From the tip, the axial depth next to that of the cut at which it begins; the upper
-  /// arcs reach higher as the depth grows [m]. Nothing: none up to twice the depth.
+  /// The height of stock next to that of the cut at which it begins; the upper arcs reach
+  /// higher as it grows [m]. Nothing: none up to twice the height.
   std::optional<double> depth;
-  double margin = 0.0;     ///< that depth over the depth of the cut, at most 2
+  double margin = 0.0;     ///< that height over the one of the cut, at most 2
   double frequency = 0.0;  ///< of the chatter there [Hz]
   std::optional<double>
       better_spindle;  ///< of a cut that chatters: nearest that does not [rad/s]
@@ -62,6 +63,8 @@ class SharedCuts {
   std::span<const Tool> tools_;
   std::span<const Vibration> vibrations_;
   std::vector<SharedCut> cuts_;
+  std::vector<double>
+      leads_;  ///< time of the one that stands for a cut, less the others' [s]
   std::map<std::vector<std::int64_t>, std::int32_t> known_;
 };
 

@@ -26,7 +26,7 @@ std::vector<results::ChatteringLine> chattering(
     const auto k = static_cast<std::size_t>(chatter.cut_of[i]);
     const engagement::SharedCut& cut = chatter.cuts[k];
     const engagement::ChatterLimit& limit = chatter.limits[k];
-    if (!limit.known || !limit.depth || *limit.depth >= cut.a_p) continue;
+    if (!limit.known || !limit.depth || limit.margin >= 1) continue;
     const auto [at, is_new] = worst.try_emplace(steps[i].line);
     if (is_new || limit.margin < at->second.margin) {
       at->second = {steps[i].line,   limit.margin, *limit.depth,

@@ -63,6 +63,39 @@ MadeProgram wall(double rpm, bool along_y = false) {
 constexpr double slow = 4000 * unit::rpm;
 const geometry::Engagement side = geometry::DownMilling{4e-3};
 
+TEST(ChatterLimits, TheCutThatMostOfTheTimeHasStandsForOthers) {
+  // At the entry the arc ends before 180 degrees.
+  const Tool tool = end_mill(10, 3, 30);
+  const Found found = limits_of(wall(4000), tool, {{{mode(0, 1)}}, 2e-6});
+  EXPECT_NEAR(found.cuts[found.longest].layers[0].arcs[0].to, std::numbers::pi, 1e-6);
+}
+
+TEST(ChatterLimits, StockAboveTheTipCountsByItsHeight) {
+  const Tool tool = end_mill(10, 3, 30);
+  const Vibration vibration{{{mode(0, 1)}}, 2e-6};
+  const auto lower = [](double z) {
+    return MadeProgram(4000, 600).rapid(-50, 41, 5).rapid(-50, 41, z).line(50, 41, z);
+  };
+  const stock::Initial plate = box({-40, -40, -2}, {40, 40, 0});
+  std::vector<double> depths;
+  for (const double z : {-2.0, -6.0}) {
+    const MadeProgram made = lower(z);
+    const Job job{made.program, std::span(&tool, 1), plate, {}};
+    SharedCuts cuts(job.tools, std::span(&vibration, 1));
+    std::vector<std::int32_t> which;
+    compute_steps(job, [&](std::span<const Step> rows) { cuts.add(rows, which); });
+    const auto limits = chatter_limits(cuts.all(), job.tools, std::span(&vibration, 1));
+    const auto longest =
+        std::ranges::max_element(cuts.all(), {}, &SharedCut::duration) -
+        cuts.all().begin();
+    const ChatterLimit& limit = limits[static_cast<std::size_t>(longest)];
+    ASSERT_TRUE(limit.depth);
+    EXPECT_NEAR(limit.margin, *limit.depth / 2e-3, 1e-6);
+    depths.push_back(*limit.depth);
+  }
+  EXPECT_NEAR(depths[1], depths[0], 0.02 * depths[0]);
+}
+
 TEST(ChatterLimits, OfAStraightWallAreThoseOfThatCut) {  // [N-19]
   for (const bool even : {true, false}) {
     const Tool tool = even ? end_mill(10, 3, 30) : end_mill(10, 3, 30, {8, 0, -5});
