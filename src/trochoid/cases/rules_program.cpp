@@ -199,10 +199,28 @@ void check_feed(const FeedRules& feed, const ProgramTables& nc, Findings& findin
   }
 }
 
+/// A limit of what nothing tells would be kept by any cut.
+void check_limits(const CaseTables& tables, Findings& findings) {
+  const ForceLimits& limits = *tables.nc.limits;
+  if (limits.deflection && !tables.machine.cutter_body) {
+    report(
+        findings, "limits.deflection_um",
+        "limits.deflection_um: how far the tool gives way is not known; must go with "
+        "[cutter_body]");
+  }
+  if (limits.bending_moment && !tables.tool.gauge_length) {
+    report(
+        findings, "limits.bending_moment_Nm",
+        "limits.bending_moment_Nm: where the moment counts is not known; must go with "
+        "gauge_length_mm in [tool]");
+  }
+}
+
 }  // namespace
 
 void check_program(CaseTables& tables, Findings& findings) {
   ProgramTables& nc = tables.nc;
+  if (nc.limits) check_limits(tables, findings);
   if (nc.program) {
     check_program_table(*nc.program, findings);
     check_record(tables, findings);

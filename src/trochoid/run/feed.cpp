@@ -21,8 +21,8 @@ namespace {
 using engagement::WantedFeed;
 using results::NewFeeds;
 
-/// A load up to this part of its limit is within it.
-constexpr double close_enough = 1.005;
+/// A load up to this part of its limit is within it: more is rounding.
+constexpr double close_enough = 1 + 1e-9;
 constexpr int most_rounds = 4;
 
 /// The peak that `even` makes the others like: of the steps in cut.
@@ -101,8 +101,9 @@ class Trial {
     WantedFeed& step = step_at(wanted, row.along);
     const double lowest = least_ * step.programmed;
     if (step.feed <= lowest * (1 + 1e-6)) return false;
-    // Forces have a part that does not depend on the feed.
-    step.feed = std::max(lowest, step.feed * std::pow(share, -1.5));
+    // Forces have a part that does not depend on the feed; the next run has other steps.
+    constexpr double margin = 0.998;
+    step.feed = std::max(lowest, margin * step.feed * std::pow(share, -1.5));
     return true;
   }
 

@@ -125,6 +125,40 @@ Tools tools_of(const cases::Case& given, const program::Program& program) {
   return out;
 }
 
+/// What is not known of the tools of a program, and what is left out.
+void warn_of_tools(const cases::Case& given, const program::Program& program,
+                   const Tools& tools, std::vector<base::Warning>& warnings) {
+  const cases::ForceLimits limits = given.nc.limits.value_or(cases::ForceLimits{});
+  const bool some_vibrate = std::ranges::any_of(
+      tools.vibrations,
+      [](const engagement::Vibration& one) { return !one.system.modes.empty(); });
+  for (const std::string& name : fed_tools(program)) {
+    const auto i = static_cast<std::size_t>(std::ranges::find(program.tools, name) -
+                                            program.tools.begin());
+    const engagement::Tool& tool = tools.tools[i];
+    const auto warn = [&](std::string_view code, std::string_view what) {
+      warnings.push_back({std::string(code), fmt::format("T{}: {}", name, what)});
+    };
+    if (!tool.cuts) {
+      warn("tool_ignored", "its moves cut nothing here; what it would cut stays.");
+      continue;
+    }
+    if (some_vibrate && tools.vibrations[i].system.modes.empty()) {
+      warn("no_modes", "its case has no [[mode]]: whether it chatters is not known.");
+    }
+    if (limits.deflection && !tool.body) {
+      warn("limit_not_checked",
+           "its case has no [cutter_body], so deflection_um of "
+           "[limits] is not checked for it.");
+    }
+    if (limits.bending_moment && !(tool.gauge_length > 0)) {
+      warn("limit_not_checked",
+           "its case has no gauge_length_mm, so bending_moment_Nm "
+           "of [limits] is not checked for it.");
+    }
+  }
+}
+
 /// Tools of the case that the program does not have.
 void warn_of_other_tools(const cases::NcProgram& nc, const program::Program& program,
                          std::vector<base::Warning>& warnings) {
@@ -545,6 +579,7 @@ results::ProgramResult program(const cases::Case& given, const Progress& progres
     r.heading.message = "No forces: a tool of the program is in no case.";
     return r;
   }
+  warn_of_tools(given, r.program, tools, r.heading.warnings);
   const double cell =
       given.nc.stock->cell.value_or(engagement::usual_cell(tools.tools));
   const stock::Initial stock = stock_of(*given.nc.stock, cell, r.heading.warnings);

@@ -308,6 +308,18 @@ class NcProgram(InFolder):
         self.assertEqual(result["limits_broken"], [])
         self.assertNotIn("limit_broken", warnings)
 
+    def test_limits_of_what_is_not_known(self):
+        """A limit that nothing tells about would be kept by any cut."""
+        for key, needs in (("deflection_um", "cutter_body"), ("bending_moment_Nm", "gauge_length_mm")):
+            self.case(limits={key: 10})
+            said = self.run_program("check", "case.toml", code=2).stderr
+            self.assertIn(f"limits.{key}", said)
+            self.assertIn(needs, said)
+
+    def test_a_tool_that_is_left_out_is_told(self):
+        self.case()
+        self.assertIn("what it would cut stays", self.answer()[1]["tool_ignored"])
+
     def test_one_feed_a_line(self):
         self.case()
         limit = 0.8 * self.answer()[0]["peaks"]["peak_xy_N"]["value"]
