@@ -250,6 +250,26 @@ void add(SpectrumSums& sums, const Block& block) {
   }
 }
 
+/// The part of the samples that stand out: few of a blow, many of what rings.
+double busy_part(std::span<const double> values) {
+  double largest = 0.0;
+  for (const double v : values) largest = std::max(largest, std::abs(v));
+  const auto busy = std::ranges::count_if(
+      values, [&](double v) { return std::abs(v) > begins * largest; });
+  return static_cast<double>(busy) / static_cast<double>(values.size());
+}
+
+/// Why there is no response where no hit can be used.
+std::string why_no_hit(const TapRecord& record, const std::vector<TapHit>& hits) {
+  constexpr double clearly = 3.0;
+  if (hits.empty()) return "the force is zero: there is no hit";
+  if (busy_part(record.force) > clearly * busy_part(record.response)) {
+    return "no hit can be used: the channel of the force rings, and the other one has "
+           "the blows; are they exchanged?";
+  }
+  return "no hit can be used: " + hits.front().fault;
+}
+
 /// Fill in the lines up to where the hammer excites (M-20).
 void take(const SpectrumSums& sums, int used, FrfEstimator estimator,
           TapResponse& out) {
@@ -292,8 +312,7 @@ TapResponse frequency_response(const TapRecord& record, const TapOptions& option
     }
   }
   if (blocks.empty()) {
-    out.fault = hits.hits.empty() ? "the force is zero: there is no hit"
-                                  : "no hit can be used: " + out.hits.front().fault;
+    out.fault = why_no_hit(record, out.hits);
     return out;
   }
   double left = 0.0;

@@ -4,6 +4,7 @@
 #include <trochoid/signal/tap_test.h>
 
 #include <algorithm>
+#include <utility>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -110,6 +111,9 @@ TEST(TapTest, SaysWhyThereIsNoResponse) {
   auto twice = made::taps({tool}, {.at = {0.1}, .length = 0.5});
   made::strike(twice, 0.13, 200, 2e-4);
   EXPECT_NE(frequency_response(twice, {}).fault.find("double hit"), std::string::npos);
+  auto exchanged = made::taps({tool}, {.at = {0.1, 0.5}, .length = 1.0});
+  std::swap(exchanged.force, exchanged.response);
+  EXPECT_NE(frequency_response(exchanged, {}).fault.find("exchanged"), std::string::npos);
 }
 
 }  // namespace trochoid::signal::tap_test_test
