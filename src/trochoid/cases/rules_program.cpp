@@ -203,10 +203,9 @@ void check_feed(const FeedRules& feed, const ProgramTables& nc, Findings& findin
 void check_limits(const CaseTables& tables, Findings& findings) {
   const ForceLimits& limits = *tables.nc.limits;
   if (limits.deflection && !tables.machine.cutter_body) {
-    report(
-        findings, "limits.deflection_um",
-        "limits.deflection_um: how far the tool gives way is not known; must go with "
-        "[cutter_body]");
+    report(findings, "limits.deflection_um",
+           "limits.deflection_um: how far the tool deflects is not known; must go with "
+           "[cutter_body]");
   }
   if (limits.bending_moment && !tables.tool.gauge_length) {
     report(

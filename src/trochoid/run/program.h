@@ -13,6 +13,27 @@
 /// The parts of what `program` answers beside its forces.
 namespace trochoid::run {
 
+/// Whether a move is fed.
+bool is_fed(const program::Move& move) noexcept;
+
+/// The tools of a program, or why there are no forces.
+struct ProgramTools {
+  std::vector<engagement::Tool> tools;            ///< shape (program.tools), or one
+  std::vector<engagement::Vibration> vibrations;  ///< the same
+  std::vector<std::size_t> own;                   ///< places of the tool of the case
+  std::vector<base::Warning> why_not;
+  std::vector<base::Warning> notes;  ///< of their measured responses
+};
+ProgramTools tools_of(const cases::Case& given, const program::Program& program);
+
+/// @brief What is not known of the tools of a program, and what is left out.
+void warn_of_tools(const cases::Case& given, const program::Program& program,
+                   const ProgramTools& tools, std::vector<base::Warning>& warnings);
+
+/// @brief Tools of the case that the program does not have.
+void warn_of_other_tools(const cases::NcProgram& nc, const program::Program& program,
+                         std::vector<base::Warning>& warnings);
+
 /// @brief The limits of a case, the power of its spindle too.
 engagement::Limits limits_of(const cases::ProgramTables& nc);
 

@@ -4,10 +4,10 @@
 #include <trochoid/signal/tap_test.h>
 
 #include <algorithm>
-#include <utility>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 namespace trochoid::signal::tap_test_test {
 
@@ -113,7 +113,8 @@ TEST(TapTest, SaysWhyThereIsNoResponse) {
   EXPECT_NE(frequency_response(twice, {}).fault.find("double hit"), std::string::npos);
   auto exchanged = made::taps({tool}, {.at = {0.1, 0.5}, .length = 1.0});
   std::swap(exchanged.force, exchanged.response);
-  EXPECT_NE(frequency_response(exchanged, {}).fault.find("exchanged"), std::string::npos);
+  EXPECT_NE(frequency_response(exchanged, {}).fault.find("exchanged"),
+            std::string::npos);
 }
 
 }  // namespace trochoid::signal::tap_test_test
