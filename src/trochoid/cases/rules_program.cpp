@@ -219,7 +219,7 @@ void check_limits(const CaseTables& tables, Findings& findings) {
 
 void check_program(CaseTables& tables, Findings& findings) {
   ProgramTables& nc = tables.nc;
-  if (nc.limits) check_limits(tables, findings);
+  if (nc.program && nc.limits) check_limits(tables, findings);
   if (nc.program) {
     check_program_table(*nc.program, findings);
     check_record(tables, findings);

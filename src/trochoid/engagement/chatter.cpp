@@ -5,6 +5,7 @@
 #include <trochoid/dynamics/directional.h>
 #include <trochoid/dynamics/multiplier.h>
 #include <trochoid/dynamics/period_elements.h>
+#include <trochoid/engagement/turn.h>
 #include <trochoid/numerics/parallel.h>
 
 #include <algorithm>
@@ -77,12 +78,13 @@ dynamics::System seen_along(const dynamics::System& system, double direction) {
 /// The cut in the axes of its feed. Its upper arcs reach as high as one likes.
 force::Setup setup_of(const SharedCut& cut, const Tool& tool) {
   geometry::Arcs arcs;
+  const double more = past_own_wall(cut.f_z, 0.0, tool.cutter);
   for (const Layer& layer : cut.layers) {
     geometry::ArcLayer& out = arcs.layers.emplace_back();
     out.from = layer.from;
     out.to = layer.to;
     for (const chip::Arc& arc : layer.arcs) {
-      out.arcs.push_back({{arc.from, arc.to}, {}, {}});
+      out.arcs.push_back({past_own_walls({arc.from, arc.to}, more), {}, {}});
     }
   }
   arcs.layers.back().to = std::numeric_limits<double>::infinity();

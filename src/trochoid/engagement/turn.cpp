@@ -231,10 +231,29 @@ bool is_plain(const Tool& tool) noexcept {
          geometry::edges_alike(tool.cutter, tool.runout);
 }
 
+double past_own_wall(double f_z, double curvature,
+                     const geometry::Cutter& cutter) noexcept {
+  const double f = f_z * cutter.teeth();
+  return f * (2 / cutter.profile.D + std::abs(curvature));
+}
+
+geometry::Arc past_own_walls(geometry::Arc arc, double more) noexcept {
+  if (arc.from == 0) arc.from -= more;
+  if (arc.to == std::numbers::pi) arc.to += more;
+  return arc;
+}
+
 force::Setup setup_of(const Turn& turn, const Tool& tool) {
+  std::vector<geometry::ArcLayer> layers = turn.layers;
+  const double more = past_own_wall(turn.f_z, turn.curvature, tool.cutter);
+  for (geometry::ArcLayer& layer : layers) {
+    for (geometry::EngagedArc& one : layer.arcs) {
+      one.arc = past_own_walls(one.arc, more);
+    }
+  }
   return {.cutter = tool.cutter,
           .runout = tool.runout,
-          .cut = {.engagement = geometry::Arcs{turn.layers, turn.curvature},
+          .cut = {.engagement = geometry::Arcs{std::move(layers), turn.curvature},
                   .a_p = turn.layers.back().to,
                   .f_z = turn.f_z},
           .chip = tool.chip,
@@ -253,7 +272,8 @@ TurnLoads loads_of(const Turn& turn, const Tool& tool) {
   const double height = turn.layers.back().to;
   const force::Setup setup = setup_of(turn, tool);
   const bool moments = tool.body.has_value() || tool.gauge_length > 0;
-  const geometry::Arc within = plain ? geometry::Arc{0.0, std::numbers::pi}
+  const double more = past_own_wall(turn.f_z, turn.curvature, tool.cutter);
+  const geometry::Arc within = plain ? geometry::Arc{-more, std::numbers::pi + more}
                                      : geometry::Arc{-2 * unit::turn, 3 * unit::turn};
   const force::ArcTurn teeth(
       setup, tool.law,

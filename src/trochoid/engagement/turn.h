@@ -38,7 +38,18 @@ struct TurnLoads {
 /// of constant lead whose teeth are alike but for runout across the axis.
 bool is_plain(const Tool& tool) noexcept;
 
-/// @brief The cut of a turn, feed along +x.
+/// @brief How far past its own wall, at 0 or 180 degrees, a tooth may still find a chip: the
+/// turn before it has left a cusp there [rad].
+///
+/// It is f/2R on a straight path: the chip ends there by the marks of the teeth (C-7).
+/// @param curvature  of the path [1/m]
+double past_own_wall(double f_z, double curvature,
+                     const geometry::Cutter& cutter) noexcept;
+
+/// An arc that goes past its own walls where it ends there.
+geometry::Arc past_own_walls(geometry::Arc arc, double more) noexcept;
+
+/// @brief The cut of a turn, feed along +x. Its arcs go past its own walls.
 /// @pre it has layers
 force::Setup setup_of(const Turn& turn, const Tool& tool);
 

@@ -97,7 +97,9 @@ numerics::PeriodicPieces bends(const force::ArcTurn& teeth,
 WallError wall_error(const Turn& turn, const Tool& tool, bool left,
                      std::span<const double> heights) {
   const force::Setup setup = setup_of(turn, tool);
-  const force::ArcTurn teeth(setup, tool.law, {.within = {0.0, pi}, .heights = true});
+  const double more = past_own_wall(turn.f_z, turn.curvature, tool.cutter);
+  const force::ArcTurn teeth(setup, tool.law,
+                             {.within = {-more, pi + more}, .heights = true});
   std::vector<HeightCompliance> places;
   for (const double z : heights) places.push_back(compliance_at(*tool.body, z));
   const numerics::PeriodicPieces u = bends(teeth, places);

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <string>
 #include <vector>
 
 namespace trochoid::program {
@@ -35,6 +35,13 @@ bool is_dwell(const Block& block, Dialect dialect) noexcept {
            return w.letter == 'G' && w.value == 4;
          });
 }
+
+/// Words behind a / may be left out at the machine: which feed holds then is not known, and
+/// the next one is written.
+bool is_optional(const Block& block) noexcept {
+  return block.deleted || block.optional_from != Block::all;
+}
+constexpr std::string_view not_known = "not known";
 
 /// A number that is whole has a point where others of the program have one.
 std::string as_written(std::string text, bool point) {
@@ -104,7 +111,8 @@ class FeedWriter {
       point_ = text_of(block, *F).find('.') != std::string_view::npos;
     }
     if (fed == moves.end()) {
-      if (F != nullptr) current_ = what_holds_behind(block);
+      if (F != nullptr) current_.clear();
+      if (F != nullptr && is_optional(block)) current_ = not_known;
       return copy(block.text);
     }
     const auto parts = parts_of(moves.size());
@@ -117,18 +125,12 @@ class FeedWriter {
     double feed = parts.empty() ? fed->feed : parts.front().feed;
     for (const FeedPart& part : parts) feed = std::min(feed, part.feed);
     const std::string text = word_for(feed, *fed, F);
+    if (is_optional(block) && (F != nullptr || !text.empty())) current_ = not_known;
     if (text.empty()) return copy(block.text);
     std::vector<std::string> texts(block.words.size());
     if (F == nullptr) return copy(with_words(block, texts, ' ' + text));
     texts[static_cast<std::size_t>(F - block.words.data())] = text;
     copy(with_words(block, texts, ""));
-  }
-
-  /// Behind an F without a move. A block with / may be left out at the machine: then it is
-  /// not known which feed holds, and the next one is written.
-  static std::optional<std::string> what_holds_behind(const Block& block) {
-    if (!block.deleted && block.optional_from == Block::all) return std::nullopt;
-    return std::string("not known");
   }
 
   void write_parts(const MoveBlock& of, std::span<const FeedPart> parts) {
@@ -158,8 +160,8 @@ class FeedWriter {
     if (inverse) {
       return same || F == nullptr ? "" : inverse_word(feed / (move.feed * move.time));
     }
-    if (same && (F != nullptr || !current_)) {
-      current_.reset();
+    if (same && (F != nullptr || current_.empty())) {
+      current_.clear();
       return "";
     }
     const double number = value_of(feed, move);
@@ -167,7 +169,7 @@ class FeedWriter {
                                    : rounded_down(number, point_));
     if (F == nullptr && current_ == text) return "";
     if (same) {
-      current_.reset();
+      current_.clear();
     } else {
       current_ = text;
     }
@@ -196,10 +198,10 @@ class FeedWriter {
   bool splits_;
   std::string out_;
   std::string_view ending_;
-  std::size_t move_ = 0;                ///< the first one of this line or of later ones
-  std::size_t part_ = 0;                ///< likewise
-  std::optional<std::string> current_;  ///< F that holds, where it is not the program's
-  bool point_ = false;                  ///< F words have one
+  std::size_t move_ = 0;  ///< the first one of this line or of later ones
+  std::size_t part_ = 0;  ///< likewise
+  std::string current_;   ///< F that holds; empty: the program's
+  bool point_ = false;    ///< F words have one
 };
 
 }  // namespace

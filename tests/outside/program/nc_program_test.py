@@ -308,6 +308,26 @@ class NcProgram(InFolder):
         self.assertEqual(result["limits_broken"], [])
         self.assertNotIn("limit_broken", warnings)
 
+    def test_thin_cuts_have_the_forces_of_simulate(self):
+        """The tooth finds the cusp that the turn before left past the wall of the cut."""
+        deep = 0.05
+        for side, block in (("down", [[0, -30, -10], [60, -4 + deep, 0]]), ("up", [[0, 4 - deep, -10], [60, 30, 0]])):
+            self.case("G21 G90\nT1 M6\nS4000 M3\nG0 X-10. Y0. Z5.\nG0 Z-2.\nG1 X20. F800\nM30\n",
+                      program={"file": "part.nc", "tool_number": 1, "ignore_tools": None},
+                      stock={"box_mm": block}, runout={"radial_offsets_mm": [0, 0.006]})
+            self.answer()
+            step = [row for row in self.rows("steps.csv") if float(row["a_p_mm"]) > 0][-1]
+            given = tables(cut={"engagement": side, "radial_depth_mm": deep, "axial_depth_mm": 2.0,
+                                "feed_per_tooth_mm": 0.1, "spindle_rpm": 4000},
+                           runout={"radial_offsets_mm": [0, 0.006]})
+            given["runout"] = {k: v for k, v in given["runout"].items() if v is not None}
+            self.write("turn.toml", program.case_text("a turn", given))
+            self.run_program("simulate", "turn.toml", "-o", "turn", "-q", "--no-report")
+            turn = self.summary("turn")["result"]
+            self.assertAlmostEqual(float(step["peak_xy_N"]), turn["peak_xy_N"], delta=2e-3 * turn["peak_xy_N"])
+            self.assertAlmostEqual(float(step["torque_mean_Nm"]), turn["exact_mean_torque_Nm"],
+                                   delta=1e-3 * turn["exact_mean_torque_Nm"])
+
     def test_limits_of_what_is_not_known(self):
         """A limit that nothing tells about would be kept by any cut."""
         for key, needs in (("deflection_um", "cutter_body"), ("bending_moment_Nm", "gauge_length_mm")):

@@ -114,6 +114,8 @@ TEST(WriteFeeds, ASplitHalfCircleByItsRadiusStaysOnItsCircle) {
 }
 
 TEST(WriteFeeds, AFeedBesideADwellOrBehindASlashIsWrittenAgain) {
+  EXPECT_EQ(written(head + "G1 X10 F300\n/X20 F100\nX30\n", 5, {{1, 30}}),
+            head + "G1 X10 F30\n/X20 F100\nX30 F100\n");
   EXPECT_EQ(written(head + "G1 X10 F300\nG4 P0.1 F300\nG1 X20\nX30\n", 7, {{1, 30}}),
             head + "G1 X10 F300\nG4 P0.1 F300\nG1 X20 F30\nX30 F300\n");
   const std::string slow = "G1 X10 F300\nX15 F30\n";
