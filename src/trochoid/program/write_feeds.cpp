@@ -79,6 +79,7 @@ class FeedWriter {
       program::split(block, program_.dialect, ignored);
       ignored = {};
       ending_ = text.substr(at + line.size(), next - at - line.size());
+      if (!ending_.empty()) usual_ending_ = ending_;
       write_block(block);
       at = next;
     }
@@ -144,11 +145,10 @@ class FeedWriter {
       out.push_back({parts[i].to, inverse ? inverse_word(parts[i].feed / part)
                                           : word_for(parts[i].feed, move, F)});
     }
-    const std::string_view end = ending_.empty() ? "\n" : ending_;
     const std::vector<std::string> texts = split_texts(of, out);
     for (std::size_t i = 0; i + 1 < texts.size(); ++i) {
       out_ += texts[i];
-      out_ += end;
+      out_ += usual_ending_;
     }
     copy(texts.back());
   }
@@ -197,7 +197,8 @@ class FeedWriter {
   std::span<const FeedPart> parts_;
   bool splits_;
   std::string out_;
-  std::string_view ending_;
+  std::string_view ending_;               ///< of this line; the last one may have none
+  std::string_view usual_ending_ = "\n";  ///< of the line before it
   std::size_t move_ = 0;  ///< the first one of this line or of later ones
   std::size_t part_ = 0;  ///< likewise
   std::string current_;   ///< F that holds; empty: the program's

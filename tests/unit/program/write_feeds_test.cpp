@@ -89,6 +89,12 @@ TEST(WriteFeeds, SplitsALine) {
             head + "G91 G1 X5. F300\nX5. F200\n");
 }
 
+TEST(WriteFeeds, ALastLineWithoutAnEndIsSplitAsTheOthersEnd) {
+  EXPECT_EQ(written("G21 G90\rT1 M6\rS1000 M3\rG0 X0 Y0 Z0\rG1 X10 F600", 5,
+                    {{0.25, 600}, {1, 200}}),
+            "G21 G90\rT1 M6\rS1000 M3\rG0 X0 Y0 Z0\rG1 X2.5 F600\rX10 F200");
+}
+
 TEST(WriteFeeds, SplitsAnArc) {
   EXPECT_EQ(written(head + "G1 X1 F600\nG3 X-1 I-1\n", 6, {{0.5, 600}, {1, 200}}),
             head + "G1 X1 F600\nG3 X0. I-1 Y1.\nG3 X-1 Y0. I0. J-1. F200\n");
