@@ -219,7 +219,8 @@ void describe_stock(const Visitor& v, CutTable& t) {
   v({.name = "arcs_deg",
      .meaning =
          "stock on these arcs of the immersion angle at all heights, from 0 at +y "
-         "clockwise; [[-90, 270]]: the whole circle",
+         "clockwise; [[-90, 270]]: the whole circle. At the wall of the cut itself an arc "
+         "may go on past 0 or 180: the chip ends by itself",
      .range = between(-360, 720),
      .need = Need::always,
      .only = {"engagement", {"arcs"}},

@@ -396,8 +396,8 @@ const Columns<std::vector<FeedRow>>& feed_columns() {
        {"feed_mm_per_min", "the largest within the limits",
         of([](W w) { return given(w.feed); })},
        {"held_by",
-        "what keeps it from being larger: `air` (nothing is cut: the feed of the "
-        "program), `factor`, `machine`, or a limit: `peak_force`, `peak_tooth`, "
+        "what keeps it from being larger: `air` (the flank cuts nothing, as in a plunge: "
+        "the feed of the program), `factor`, `machine`, or a limit: `peak_force`, `peak_tooth`, "
         "`torque`, `power`, `moment`, `deflection`, `chip`",
         of([](W w) { return name_of(w.held); })},
        {"reachable", "0: even the lowest feed breaks a limit",
