@@ -214,10 +214,6 @@ Agreement agreement(std::span<const Row> rows, const Means& means, const Place& 
   return {sum.value(), all > 0 ? sum.weight() / all : 0.0};
 }
 
-Agreement agreement(std::span<const Row> rows, const Means& means) {
-  return agreement(rows, means, {});
-}
-
 double best_start(std::span<const Row> rows, const Means& means, const Place& about,
                   double reach) {
   constexpr int tries = 20;

@@ -39,17 +39,16 @@ std::vector<Row> some_of(std::span<const Row> rows, std::size_t most);
 /// Neighbours of one group as one row, up to a duration [s].
 std::vector<Row> merged(std::span<const Row> rows, double longest);
 
-/// How rows agree with a record.
-struct Agreement {
-  double correlation = -1.0;  ///< where the record has them
-  double covered = 0.0;       ///< part of their time that it has
-};
-Agreement agreement(std::span<const Row> rows, const Means& means);
-
 /// Where rows are laid.
 struct Place {
   double start = 0.0;  ///< [s]
   double stretch = 1.0;
+};
+
+/// How rows agree with a record.
+struct Agreement {
+  double correlation = -1.0;  ///< where the record has them
+  double covered = 0.0;       ///< part of their time that it has
 };
 Agreement agreement(std::span<const Row> rows, const Means& means, const Place& at);
 
