@@ -220,7 +220,7 @@ void describe_stock(const Visitor& v, CutTable& t) {
      .meaning =
          "stock on these arcs of the immersion angle at all heights, from 0 at +y "
          "clockwise; [[-90, 270]]: the whole circle. At the wall of the cut itself an arc "
-         "may go on past 0 or 180: the chip ends by itself",
+         "may go on past 0 or 180: the marks of the teeth end the chip",
      .range = between(-360, 720),
      .need = Need::always,
      .only = {"engagement", {"arcs"}},
