@@ -33,9 +33,9 @@ constexpr double multiplier_tolerance = 3e-3;
 constexpr double matrices_tolerance = 1e-3;
 constexpr double limit_tolerance = 1e-2;
 constexpr int most_root_steps = 20;
-/// Other speeds: so far apart, so far off, and stable by this much.
+/// Other speeds: so far apart, so many on each side, and stable by this much.
 constexpr double speed_step = 0.02;
-constexpr double farthest_speed = 0.3;
+constexpr int other_speeds = 15;
 constexpr double clearly_stable = 0.95;
 /// Of which chatter frequencies only the strongest is wanted.
 constexpr double strongest = 0.9;
@@ -192,9 +192,9 @@ class Asked {
   [[nodiscard]] std::optional<double> better() const {
     const dynamics::Directional at = at_height(height_);
     const double allowed = std::log(clearly_stable);
-    for (double off = speed_step; off <= farthest_speed; off += speed_step) {
+    for (int i = 1; i <= other_speeds; ++i) {
       for (const double side : {1.0, -1.0}) {
-        const double spindle = cut_.spindle * (1 + side * off);
+        const double spindle = cut_.spindle * (1 + side * i * speed_step);
         if (growth_of(at, spindle) < allowed) return spindle;
       }
     }

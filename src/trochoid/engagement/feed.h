@@ -81,7 +81,7 @@ struct WantedFeed {
 /// The stock of a step is that at its start, middle and end: what holds at all three.
 /// @eq N-14  x = max {x in [least, most]: Q_i(x f) <= limit_i for all i}
 /// @src derived
-std::vector<WantedFeed> largest_feeds(const Job& job, const Limits& limits,
+std::vector<WantedFeed> largest_feeds(const Job& given, const Limits& limits,
                                       const FeedRange& range);
 
 /// @brief Feeds for the program's text: steps whose feeds differ little share the lowest

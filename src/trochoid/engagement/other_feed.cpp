@@ -26,6 +26,17 @@ constexpr std::size_t most_lines = 60;
 constexpr std::size_t rows_of_program = 500;
 constexpr std::size_t rows_of_line = 80;
 
+/// Factors up to one, each by a ratio more than the one before.
+std::vector<double> factors(double from, double to, double ratio) {
+  std::vector<double> out;
+  const double count = std::ceil(std::log(to / from) / std::log(ratio));
+  out.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < static_cast<int>(count); ++i) {
+    out.push_back(from * std::pow(ratio, i));
+  }
+  return out;
+}
+
 /// All feeds slower by a factor, where the program starts then, and how well that agrees.
 struct Slower {
   double factor = 1.0;
@@ -38,7 +49,8 @@ Slower coarse_factor(std::span<const Row> rows, const Bins& record,
                      const base::Stop& stop) {
   const std::vector<Row> few = merged(rows, 0.5 * record.width());
   Slower best;
-  for (double factor = fastest; factor < slowest && !stop.late(); factor *= next_feed) {
+  for (const double factor : factors(fastest, slowest, next_feed)) {
+    if (stop.late()) break;
     const Lag lag = best_lag(laid(few, 0.0, factor), record);
     if (lag.whole > best.correlation) best = {factor, lag.start, lag.whole};
   }
@@ -177,7 +189,7 @@ Slower factor_of_line(std::span<const Row> rows, const Means& means,
   const Slower as_others = at(about.factor);
   Slower best = as_others;
   const auto look = [&](double from, double to, double next) {
-    for (double factor = from; factor < to; factor *= next) {
+    for (const double factor : factors(from, to, next)) {
       const Slower one = at(factor);
       if (one.correlation > best.correlation) best = one;
     }
@@ -220,16 +232,17 @@ Laid best_line_by_line(std::span<const Row> rows, std::span<const OneLine> lines
                        const Means& means, std::span<const Slower> abouts,
                        const Bins& bins) {
   constexpr std::size_t few_lines = 12;
-  const int starts = lines.size() <= few_lines ? 4 : 1;
+  const std::size_t starts = lines.size() <= few_lines ? 4 : 1;
   const double apart =
       std::max(3 * bins.width(), 0.04 * (rows.back().time - rows.front().time));
-  const std::size_t of_each = static_cast<std::size_t>(2 * starts + 1);
+  const std::size_t of_each = 2 * starts + 1;
   std::vector<Laid> all(abouts.size() * of_each);
   numerics::for_each_index(
       all.size(),
       [&](std::size_t i) {
         Slower seed = abouts[i / of_each];
-        seed.start += apart * (static_cast<double>(i % of_each) - starts);
+        seed.start +=
+            apart * (static_cast<double>(i % of_each) - static_cast<double>(starts));
         all[i] = line_by_line(rows, lines, means, seed, 0.7 * apart);
         all[i].whole = whole_agreement(all[i].rows, bins);
       },

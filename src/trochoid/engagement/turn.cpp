@@ -58,6 +58,7 @@ double larger(double a, double b) noexcept {
 std::vector<double> angles_of(const force::ArcTurn& turn, bool every_event) {
   std::vector<double> phi;
   const int count = turn.jumps() ? angles_with_jumps : angles;
+  phi.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     phi.push_back(unit::turn * i / count);
   }

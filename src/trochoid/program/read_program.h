@@ -39,8 +39,8 @@ struct ProgramText {
 ///
 /// Order within a block, drilling cycles and units are those of LinuxCNC (RS274/NGC);
 /// docs/theory/program.md names what is different.
-/// @param text  in UTF-8, or any other code of which ASCII is a part
-ProgramText read_program(std::string_view text, const ReadOptions& options);
+/// @param bytes  in UTF-8, or any other code of which ASCII is a part
+ProgramText read_program(std::string_view bytes, const ReadOptions& options);
 
 /// @brief The name of a work offset without blanks, in capitals: `G54.1P3`.
 std::string offset_name(std::string_view text);

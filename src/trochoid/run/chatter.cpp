@@ -34,6 +34,7 @@ std::vector<results::ChatteringLine> chattering(
     }
   }
   std::vector<results::ChatteringLine> out;
+  out.reserve(worst.size());
   for (const auto& [line, one] : worst) out.push_back(one);
   return out;
 }

@@ -226,6 +226,7 @@ std::vector<double> reaches_of(const geometry::Cutter& cutter,
   double mean = 0.0;
   for (const auto& tooth : teeth) mean += tooth.R / static_cast<double>(teeth.size());
   std::vector<double> out;
+  out.reserve(teeth.size());
   for (const auto& tooth : teeth) out.push_back(tooth.R - mean);
   return out;
 }
@@ -267,8 +268,9 @@ void warn_of_runout(const results::ProgramRecord& record, const engagement::Tool
   const std::vector<double> found = reaches_of(tool.cutter, fit.runout);
   const std::vector<double> stated = reaches_of(tool.cutter, tool.runout);
   if (!(se > 0) || difference_of(found, stated) <= fit.interval_factor * se) return;
-  const auto in_um = [](std::vector<double> all) {
+  const auto in_um = [](const std::vector<double>& all) {
     std::vector<std::string> out;
+    out.reserve(all.size());
     for (const double one : all) out.push_back(fmt::format("{:+.3g}", one / unit::um));
     return out;
   };

@@ -452,7 +452,8 @@ double swept_area(const Swept& swept, double z, double step) {
   std::vector<Reach> active;
   std::size_t next = 0;
   double sum = 0.0;
-  for (const auto& [y, h] : scan_lines(std::move(breaks), swept.initial(), step)) {
+  for (const ScanLine& line : scan_lines(std::move(breaks), swept.initial(), step)) {
+    const double y = line.y;
     for (; next < reaches.size() && reaches[next].from < y; ++next) {
       active.push_back(reaches[next]);
     }
@@ -462,7 +463,7 @@ double swept_area(const Swept& swept, double z, double step) {
     for (const Reach& r : active) {
       scan.add(*r.piece, y);
     }
-    sum += h * scan.swept_length(stock.from, stock.to);
+    sum += line.height * scan.swept_length(stock.from, stock.to);
   }
   return sum;
 }
