@@ -225,12 +225,6 @@ bool answers_alike(const dynamics::System& system) {
   });
 }
 
-}  // namespace
-
-SharedCuts::SharedCuts(std::span<const Tool> tools,
-                       std::span<const Vibration> vibrations)
-    : tools_(tools), vibrations_(vibrations) {}
-
 /// Whether two cuts of a kind are the same but for rounding.
 bool is_same(const SharedCut& a, const SharedCut& b) {
   constexpr double same_angle = 1e-4;
@@ -250,6 +244,12 @@ bool is_same(const SharedCut& a, const SharedCut& b) {
            });
   });
 }
+
+}  // namespace
+
+SharedCuts::SharedCuts(std::span<const Tool> tools,
+                       std::span<const Vibration> vibrations)
+    : tools_(tools), vibrations_(vibrations) {}
 
 void SharedCuts::add(std::span<const Step> steps, std::vector<std::int32_t>& which) {
   for (const Step& step : steps) {
@@ -278,28 +278,32 @@ void SharedCuts::add(std::span<const Step> steps, std::vector<std::int32_t>& whi
     }
     const auto [at, is_new] =
         known_.try_emplace(std::move(key), static_cast<std::int32_t>(cuts_.size()));
-    if (is_new) {
-      cuts_.emplace_back();
-      leads_.push_back(0.0);
-    }
-    const auto k = static_cast<std::size_t>(at->second);
-    const SharedCut here{.tool = tool,
-                         .spindle = step.spindle,
-                         .f_z = step.f_z,
-                         .a_p = step.layers.back().to,
-                         .direction = alike ? 0.0 : step.direction,
-                         .layers = std::move(bands),
-                         .duration = cuts_[k].duration + step.duration,
-                         .line = is_new ? step.line : cuts_[k].line};
-    // The cut that most of the time has stands for all: not the first, at an entry.
-    if (is_same(here, cuts_[k])) {
-      leads_[k] += step.duration;
-    } else if ((leads_[k] -= step.duration) < 0) {
-      leads_[k] = step.duration;
-      cuts_[k] = here;
-    }
-    cuts_[k].duration = here.duration;
+    SharedCut here{.tool = tool,
+                   .spindle = step.spindle,
+                   .f_z = step.f_z,
+                   .a_p = step.layers.back().to,
+                   .direction = alike ? 0.0 : step.direction,
+                   .layers = std::move(bands),
+                   .duration = step.duration,
+                   .line = step.line};
     which.push_back(at->second);
+    if (is_new) {
+      cuts_.push_back(std::move(here));
+      leads_.push_back(step.duration);
+      continue;
+    }
+    SharedCut& cut = cuts_[static_cast<std::size_t>(at->second)];
+    double& lead = leads_[static_cast<std::size_t>(at->second)];
+    here.duration += cut.duration;
+    here.line = cut.line;
+    // The cut that most of the time has stands for all: not the first, at an entry.
+    if (is_same(here, cut)) {
+      lead += step.duration;
+    } else if ((lead -= step.duration) < 0) {
+      lead = step.duration;
+      cut = here;
+    }
+    cut.duration = here.duration;
   }
 }
 

@@ -38,10 +38,13 @@ struct TurnLoads {
 /// of constant lead whose teeth are alike but for runout across the axis.
 bool is_plain(const Tool& tool) noexcept;
 
-/// @brief How far past its own wall, at 0 or 180 degrees, a tooth may still find a chip: the
-/// turn before it has left a cusp there [rad].
+/// @brief An angle that is surely past the last chip behind its own wall, at 0 or 180
+/// degrees, where the turn before has left a cusp [rad].
 ///
-/// It is f/2R on a straight path: the chip ends there by the marks of the teeth (C-7).
+/// Twice that of N-30, and as much as the path turns: the marks of the teeth end the chip
+/// before (C-7).
+/// @eq N-30  the cusp ends at sin(theta_c) = f/2R past the wall, f the feed of a turn
+/// @src derived
 /// @param curvature  of the path [1/m]
 double past_own_wall(double f_z, double curvature,
                      const geometry::Cutter& cutter) noexcept;

@@ -20,7 +20,7 @@ namespace trochoid::run {
 namespace {
 
 /// A record that agrees less is not of this program: as it was programmed, with one factor
-/// for all feeds, and with one for each line. What is free fits anything a little.
+/// for all feeds, and with one for each line. Free feeds fit almost any record a little.
 constexpr double least_correlation = 0.85;
 constexpr double least_with_factor = 0.9;
 constexpr double least_line_by_line = 0.95;
@@ -386,7 +386,7 @@ base::Warning does_not_fit(const Placed& record, const std::string& file,
   if (cuts != steps.end() && length * cuts->spindle < least_turns * unit::turn) {
     return {
         "record_does_not_fit",
-        fmt::format("{}: it has less than ten turns of the spindle: too few to find "
+        fmt::format("{}: it has fewer than ten turns of the spindle: too few to find "
                     "where it lies over the program.",
                     file)};
   }
@@ -401,7 +401,9 @@ base::Warning does_not_fit(const Placed& record, const std::string& file,
           at.correlation,
           elsewhere ? fmt::format(" where both are; of the whole record {:.2f}",
                                   at.whole_correlation)
-                    : std::string(),
+          : record.least > least_correlation
+              ? fmt::format(", and with other feeds {} is needed", record.least)
+              : std::string(),
           elsewhere ? " alone (from_s and to_s leave the rest out)" : "",
           record.numbers ? ""
                          : " Feeds that the operator changed often need a column with "
@@ -411,15 +413,16 @@ base::Warning does_not_fit(const Placed& record, const std::string& file,
 /// Other places agree nearly as well: equal passes, of which the record has a part.
 void warn_of_places(const Placed& record, const std::string& file,
                     std::vector<base::Warning>& warnings) {
-  const double other = record.over.alignment.other_start;
-  if (record.numbers || !std::isfinite(other)) return;
+  const engagement::Alignment& at = record.over.alignment;
+  if (record.numbers || !std::isfinite(at.other_start)) return;
+  const double other = record.over.clock_at((at.other_start - at.start) / at.stretch);
   warnings.push_back(
       {"record_ambiguous",
        fmt::format(
            "{}: the program may start at {:.2f} s or at {:.2f} s of it: both agree "
            "about as well. Which step had which force is not known for certain. "
            "A record with the air before and after the program tells.",
-           file, record.alignment().start, record.start + other)});
+           file, record.alignment().start, other)});
 }
 
 void warn_of_record(const results::ProgramRecord& record,
@@ -430,7 +433,8 @@ void warn_of_record(const results::ProgramRecord& record,
          fmt::format(
              "{}: the feed moves took {:.3f} times as long as in the program: a feed "
              "override, or accelerations that [machine] does not have. The "
-             "computed forces belong to the programmed feeds. Coefficients are found with the feeds that ran.",
+             "computed forces belong to the programmed feeds. Coefficients are found with "
+             "the feeds that ran.",
              record.file, record.alignment.stretch)});
   }
   if (!record.recorded.idle.found) {

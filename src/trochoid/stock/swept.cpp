@@ -389,9 +389,6 @@ std::vector<double> walls_along_x(const Initial& initial) {
   return {};
 }
 
-/// More breaks than so many for each line are not worth their time.
-constexpr double breaks_for_a_line = 8.0;
-
 struct ScanLine {
   double y;       ///< [m]
   double height;  ///< that it stands for [m]
@@ -442,12 +439,9 @@ double swept_area(const Swept& swept, double z, double step) {
   std::ranges::stable_sort(reaches, {}, &Reach::from);  // moves in a row stay in a row
   std::vector<double> breaks{reaches.front().from,
                              std::ranges::max_element(reaches, {}, &Reach::to)->to};
-  const auto most = static_cast<std::size_t>(breaks_for_a_line *
-                                             ((breaks[1] - breaks[0]) / step + 1));
   for (const Reach& r : reaches) {
     if (is_along_x(*r.piece)) breaks.insert(breaks.end(), {r.from, r.to});
   }
-  if (breaks.size() > most) breaks.resize(2);  // of so many walls none counts
   Scan scan(swept, z);
   std::vector<Reach> active;
   std::size_t next = 0;

@@ -117,7 +117,7 @@ class Place(InFolder):
         self.assertNotIn("line_column", warnings["record_does_not_fit"], "it has one")
         self.write("short.csv", "time_s,P_W\n" + "".join(f"{i / 100},{150 + i % 3}\n" for i in range(8)))
         _, warnings = self.answer([48, 48], record="short.csv")
-        self.assertIn("less than ten turns", warnings["record_does_not_fit"])
+        self.assertIn("fewer than ten turns", warnings["record_does_not_fit"])
 
 
 if __name__ == "__main__":

@@ -308,7 +308,7 @@ class NcProgram(InFolder):
         self.assertEqual(result["limits_broken"], [])
         self.assertNotIn("limit_broken", warnings)
 
-    def test_thin_cuts_have_the_forces_of_simulate(self):
+    def test_thin_cuts_have_the_forces_of_simulate(self):  # [N-30]
         """The tooth finds the cusp that the turn before left past the wall of the cut."""
         deep = 0.05
         for side, block in (("down", [[0, -30, -10], [60, -4 + deep, 0]]), ("up", [[0, 4 - deep, -10], [60, 30, 0]])):
