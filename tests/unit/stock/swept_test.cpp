@@ -251,8 +251,11 @@ TEST(Swept, AVolumeIsThatOfItsSlot) {  // [N-9]
 }
 
 TEST(Swept, WallsAlongTheLinesOfTheScanAreNoError) {  // [N-9]
-  const std::vector<Move> moves{move(MoveKind::rapid, -0.05, 0.0201, -0.002),
-                                move(MoveKind::line, 0.05, 0.0201, -0.002)};
+  // Beside another slot, so that its wall is not where the scan begins.
+  const std::vector<Move> moves{move(MoveKind::rapid, -0.05, 0.0, -0.002),
+                                move(MoveKind::line, 0.05, 0.0, -0.002),
+                                move(MoveKind::rapid, 0.05, 0.0201, -0.002),
+                                move(MoveKind::line, -0.05, 0.0201, -0.002)};
   const Initial thin = Box{{-0.03, 0.01505, -0.01}, {0.03, 0.0152, 0.0}};
   const Swept swept(stock::path(moves, 0.1), thin, {Wall::upright(5e-3)});
   const double volume = 0.06 * (0.0152 - 0.0151) * 2e-3;
